@@ -104,7 +104,8 @@ async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: 
     while is_actor_present(bus, run, &options.name, TOKEN_TIMEOUT).await? {
         if begun.elapsed() > NAME_TIMEOUT {
             if is_heard(bus, run, &options.name).await? == Some(false) {
-                tracing::warn!(actor = %options.name, "the token of an actor of this name is there, but it sends nothing: joining");
+                let actor = &options.name;
+                tracing::warn!(%actor, "the token of an actor of this name is there, but it sends nothing: joining");
                 return Ok(true);
             }
             return Err(ActorError::NameTaken { run: run.to_string(), name: options.name.clone() });

@@ -28,7 +28,10 @@ pub struct RouterArgs {
     #[command(flatten)]
     network: NetworkArgs,
     /// Silence of a learner after which the router starts anew (s).
-    #[arg(long, hide = true, default_value_t = PATIENCE_S, value_parser = clap::value_parser!(u64).range(1..=PATIENCE_MAX_S))]
+    #[arg(
+        long, hide = true, default_value_t = PATIENCE_S,
+        value_parser = clap::value_parser!(u64).range(1..=PATIENCE_MAX_S)
+    )]
     patience_s: u64,
     /// Whether a learner has answered before.
     #[arg(long, hide = true, default_value_t = false, action = clap::ArgAction::Set)]

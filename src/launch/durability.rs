@@ -93,8 +93,8 @@ impl StoredRun<'_> {
             None => block_in_place(|| self.begin_new(store)).map(Some),
             Some(_) if self.follows() => Ok(None),
             Some((manifest, _)) => Err(Usage(format!(
-                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
-                 `treadmill learner --standby`, or choose another URL",
+                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow \
+                 it with `treadmill learner --standby`, or choose another URL",
                 manifest.run,
                 thousands(manifest.env_steps)
             ))

@@ -110,7 +110,8 @@ impl NetworkArgs {
         match credentials.missing() {
             None => Ok(Some(credentials)),
             Some(file) => Err(Usage(format!(
-                "--tls {}: `{}` does not exist; create it with `treadmill certs`, or copy it from the machine where that was run",
+                "--tls {}: `{}` does not exist; create it with `treadmill certs`, or copy it from the machine where that \
+                 was run",
                 credentials.folder.display(),
                 file.display()
             ))),

@@ -43,7 +43,8 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     );
     let text = stdout(&output);
     for part in [
-        "to go forward and not to fall, in 8,192 env steps (at most 16 updates); the remaining time appears once the speed is known",
+        "to go forward and not to fall, in 8,192 env steps (at most 16 updates); the remaining time appears once the \
+         speed is known",
         "watch     treadmill status --watch ",
         "film      treadmill eval ",
         "resume    treadmill train --resume ",

@@ -120,7 +120,10 @@ impl Bus {
             insert(&mut settings, "access_control", access_rules::access())?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
-        let rule = |flow: &str, control: &str| json!({"messages": ["query"], "flows": [flow], "overwrite": {"congestion_control": control}});
+        let rule = |flow: &str, control: &str| {
+            let overwrite = json!({"congestion_control": control});
+            json!({"messages": ["query"], "flows": [flow], "overwrite": overwrite})
+        };
         let mut rules = vec![rule("ingress", "drop")];
         if !threads::is_one() {
             rules.push(rule("egress", "block"));
