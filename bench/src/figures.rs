@@ -111,7 +111,8 @@ impl Figures<'_> {
             "produced_steps": end.produced_steps - begin.produced_steps,
             "dropped_steps": dropped,
             "nothing_lost": adds_up && lost == 0.0 && untrained >= -in_flight_steps,
-            "fragments": all.to_json(),
+            "fragments": all,
+            "in_flight": all.in_flight(),
             "trained_in_all_steps": trained_in_all,
             "untrained_steps": untrained,
         }))

@@ -78,20 +78,6 @@ async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continue
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_sender_of_malformed_fragments_is_quarantined() {
-    let fixture = start();
-    for _ in 0..8 {
-        assert_eq!(send(&fixture.bus, vec![0xff; 100]).await.outcome, Outcome::Malformed);
-    }
-    let receipt = send(&fixture.bus, vec![0xff; 100]).await;
-    assert_eq!(receipt.outcome, Outcome::Quarantined);
-    assert!(receipt.reason.contains("stranger"));
-    await_that("the metric of quarantined senders", || {
-        last_value(&fixture.run, "actors/quarantined").filter(|count| *count == 1.0)
-    });
-}
-
-#[tokio::test(flavor = "multi_thread")]
 async fn clients_can_subscribe_to_every_scalar_and_episode() {
     let fixture = start();
     let metrics_feed = observe(&fixture.bus, "treadmill/*/metrics/**", 4096).unwrap();

@@ -1,5 +1,7 @@
 //! Processes of played actors, as the measuring process sees them.
 
+use anyhow::Context;
+
 use super::counts::{Tally, Times};
 use crate::process::{Process, flags, number};
 
@@ -62,7 +64,7 @@ impl PlayedFleet {
         self.processes.iter_mut().try_for_each(|process| process.send(command))?;
         let mut sum = Tally::default();
         for process in &mut self.processes {
-            sum.add(Tally::from_json(&process.receive()?)?);
+            sum.add(serde_json::from_value(process.receive()?).context("not the counts")?);
         }
         Ok(sum)
     }
@@ -71,7 +73,7 @@ impl PlayedFleet {
     pub fn times(&mut self) -> anyhow::Result<Times> {
         let mut times = Times::default();
         for process in &mut self.processes {
-            times.add(&Times::from_json(&process.ask("times")?));
+            times.add(&serde_json::from_value(process.ask("times")?).context("not the times")?);
         }
         for kind in [&mut times.receipts_ms, &mut times.fetches_ms, &mut times.late_ms] {
             kind.sort_by(f64::total_cmp);

@@ -146,7 +146,7 @@ fn execute(line: &str, actors: &[Arc<PlayedActor>], order: &watch::Sender<Order>
         None if line == "times" => {
             let mut times = Times::default();
             actors.iter().for_each(|actor| times.add(&actor.times()));
-            return Ok(times.to_json());
+            return Ok(serde_json::to_value(times)?);
         }
         None if line == "stop" => {
             order.send_replace(Order::Stop);
@@ -160,7 +160,7 @@ fn execute(line: &str, actors: &[Arc<PlayedActor>], order: &watch::Sender<Order>
         }
         _ => anyhow::bail!("unknown command `{line}`"),
     }
-    Ok(tally(actors).to_json().into())
+    Ok(serde_json::to_value(tally(actors))?)
 }
 
 fn tally(actors: &[Arc<PlayedActor>]) -> Tally {
