@@ -15,7 +15,7 @@ use treadmill_proto::{ActorStats, Fragment, PolicyBundle, PolicyPiece, PolicyReq
 use zenoh::{Config, Session, Wait, qos::CongestionControl};
 
 #[path = "../support/fragment.rs"]
-mod sample;
+pub mod sample;
 
 pub use self::sample::fragment;
 

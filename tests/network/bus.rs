@@ -1,13 +1,30 @@
 //! Other clients of the bus: receipts for their fragments, and subscriptions.
 
-#[path = "../support/fragment.rs"]
-pub mod sample;
-
-use crate::support::*;
+use crate::{attacks::sample, support::*};
 use bytes::Bytes;
 use serde_json::Value;
 use treadmill_bus::{Bus, actor::submit, observer::observe};
-use treadmill_proto::{Fragment, Outcome, Receipt};
+use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, fragment::TERMINATED};
+
+/// Returns a whole batch of the preset `smoke`: 512 episodes of one step.
+pub fn batch(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
+    let (steps, envs) = (64, 8);
+    let rows = (steps * envs) as usize;
+    let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
+    let observations = wavy(rows * bundle.observation_size as usize);
+    let actions = wavy(rows * bundle.action_size as usize);
+    Fragment {
+        steps,
+        envs,
+        log_probs: sample::log_probs(bundle, &observations, &actions),
+        observations,
+        actions,
+        rewards: vec![1.0; rows],
+        flags: vec![TERMINATED; rows],
+        last_observations: vec![],
+        ..sample::fragment(bundle, actor, sequence)
+    }
+}
 
 /// Run that trains until the end of the test, and a client of its bus.
 struct Fixture {
