@@ -23,7 +23,7 @@ use crate::{
         actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, robot, router, runs,
         status, train, watch,
     },
-    launch::{exit_code, familiar_flags, log, output, processor},
+    launch::{exit_code, familiar_flags, log, output, processor, restart},
     shared::viewer_args,
 };
 
@@ -108,6 +108,7 @@ fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
+    restart::pause();
     log::begin("");
     // Training goes on without its output.
     let is_service = matches!(

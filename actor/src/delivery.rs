@@ -9,7 +9,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusError, submit};
+use treadmill_bus::{Bus, BusError, actor::submit};
 use treadmill_experience::delivery::{Action, Attempt, Delivery, DeliveryCounts, Event, settles};
 use treadmill_proto::{Outcome, Receipt};
 
@@ -81,14 +81,19 @@ impl Uploader {
 
     /// Delivers one fragment until it is settled, then fetches the policy that its receipt names.
     pub async fn deliver(&self, first: Attempt) -> Result<Refresh, BusError> {
-        let receipt = self.send_until_settled(first).await?;
+        let receipt = self.settle(first).await?;
+        self.adopt(&receipt).await
+    }
+
+    /// Sets the length of the next fragment as a receipt says, and fetches the policy that it names.
+    pub async fn adopt(&self, receipt: &Receipt) -> Result<Refresh, BusError> {
         if receipt.fragment_steps > 0 {
             self.fragment_steps.store(receipt.fragment_steps, Ordering::Relaxed);
         }
         let refresh = self.policies.refresh(Some(receipt.version)).await;
         let incarnation = self.policies.current().version.incarnation;
         for attempt in self.handle(Event::Adopted { incarnation }) {
-            self.send_until_settled(attempt).await?;
+            self.settle(attempt).await?;
         }
         Ok(refresh)
     }
@@ -118,7 +123,7 @@ impl Uploader {
     }
 
     /// Makes attempts until one settles the fragment. Returns its receipt.
-    async fn send_until_settled(&self, first: Attempt) -> Result<Receipt, BusError> {
+    pub async fn settle(&self, first: Attempt) -> Result<Receipt, BusError> {
         let settles = |receipt: &Receipt| self.policies.admits(receipt.version) && settles(receipt.outcome);
         let mut newest_epoch = self.policies.newest_epoch();
         let mut next = first;

@@ -36,8 +36,8 @@ pub enum ActorError {
     },
     /// The run trains a task that this program does not simulate.
     #[error(
-        "run `{run}` trains `{task}`, which this program does not simulate: it simulates the humanoid only; join with an actor \
-         that has that environment, as in `python -m treadmill_actor --run {run} --env NAME` (see python/README.md)"
+        "run `{run}` trains `{task}`, which this program does not simulate: it simulates the humanoid only; join with an \
+         actor that has that environment, as in `python -m treadmill_actor --run {run} --env NAME` (see python/README.md)"
     )]
     OtherTask {
         /// Name of the run.
@@ -71,8 +71,8 @@ pub enum ActorError {
     },
     /// A fragment would be larger than the bus allows.
     #[error(
-        "fragments of {envs} environments and {steps} steps are too large to send; allowed for {steps} steps: --envs {envs_max}; \
-         start further actors for the other environments"
+        "fragments of {envs} environments and {steps} steps are too large to send; allowed for {steps} steps: --envs \
+         {envs_max}; start further actors for the other environments"
     )]
     FragmentSize {
         /// Environments of this actor.

@@ -2,7 +2,10 @@
 
 use std::{ops::ControlFlow, time::Duration};
 
-use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
+use treadmill_bus::{
+    Bus,
+    actor::{Assignment, ask_for_evaluation},
+};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};

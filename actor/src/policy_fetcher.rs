@@ -7,7 +7,10 @@ use std::{
 };
 
 use tokio::sync::{Mutex, watch};
-use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy, is_behind_standby};
+use treadmill_bus::{
+    Bus, BusError,
+    actor::{FetchedPolicy, fetch_newer_policy, fetch_policy, is_behind_standby},
+};
 use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 

@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use tokio::{sync::mpsc, time::MissedTickBehavior};
-use treadmill_bus::{PosePublisher, Watched};
+use treadmill_bus::actor::{PosePublisher, Watched};
 use treadmill_humanoid::{Environment, Physics, StepInfo, physics::BodyMotion, task::velocity::BaseMotion};
 use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 

@@ -91,7 +91,7 @@ impl RunSettings {
     ///
     /// # Errors
     /// If such a fragment is too large for the bus.
-    pub(crate) fn first_fragment_steps(&self, bundle: &PolicyBundle, envs: u32) -> Result<u32, ActorError> {
+    pub fn first_fragment_steps(&self, bundle: &PolicyBundle, envs: u32) -> Result<u32, ActorError> {
         let steps = match (bundle.fragment_steps, self.rollout.fragment_steps) {
             (0, 0) => RolloutConfig::STEPS_MAX,
             (0, steps) | (steps, _) => steps,

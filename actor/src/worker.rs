@@ -10,8 +10,9 @@ use std::{
 
 use tokio::task::JoinSet;
 use treadmill_bus::{
-    Bus, PosePublisher, is_actor_present, keys, newest_of_each_run, publish_dropping, statuses, token,
-    watch_announcements,
+    Bus,
+    actor::{PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
+    observer::{newest_of_each_run, statuses},
 };
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
 use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
@@ -102,7 +103,8 @@ async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: 
     while is_actor_present(bus, run, &options.name, TOKEN_TIMEOUT).await? {
         if begun.elapsed() > NAME_TIMEOUT {
             if is_heard(bus, run, &options.name).await? == Some(false) {
-                tracing::warn!(actor = %options.name, "the token of an actor of this name is there, but it sends nothing: joining");
+                let actor = &options.name;
+                tracing::warn!(%actor, "the token of an actor of this name is there, but it sends nothing: joining");
                 return Ok(true);
             }
             return Err(ActorError::NameTaken { run: run.to_string(), name: options.name.clone() });
@@ -209,8 +211,8 @@ impl<'a> Membership<'a> {
     ) -> Result<EndReason, ActorError> {
         let (run, actor) = (&self.identity.run, &self.identity.actor);
         let announcements = watch_announcements(self.bus, run)?;
-        let publish_episode = publish_dropping(self.bus, keys::episodes(run, actor))?;
-        let publish_stats = publish_dropping(self.bus, keys::stats(run, actor))?;
+        let publish_episode = publish_episodes(self.bus, run, actor)?;
+        let publish_stats = publish_stats(self.bus, run, actor)?;
         let mut stats_due = tokio::time::interval(Duration::from_millis(self.settings.bus.stats_every_ms));
         let mut poll_due = tokio::time::interval(self.poll_interval());
         // Deliveries and fetches wait for answers, so they run as tasks: credit and a request to stop must not wait.

@@ -8,31 +8,16 @@ use std::{
 
 use anyhow::Context;
 
-use crate::usage;
+use crate::process::cpu_s;
 
-/// Measurement of plain TCP.
-#[derive(Clone, Copy, Debug)]
-pub struct Raw {
-    pub mb_per_s: f64,
-    /// Of both ends together.
-    pub cpu_s_per_gb: f64,
-}
-
-impl Raw {
-    /// Returns the mean of two measurements.
-    pub fn mean(self, other: Self) -> Self {
-        Self {
-            mb_per_s: (self.mb_per_s + other.mb_per_s) / 2.0,
-            cpu_s_per_gb: (self.cpu_s_per_gb + other.cpu_s_per_gb) / 2.0,
-        }
-    }
-}
+/// Megabytes per second, and processor time of both ends in seconds per gigabyte.
+pub type Raw = [f64; 2];
 
 /// Sends messages of this size for `duration`. The receiver reads each into the same buffer.
 pub fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
     let listener = TcpListener::bind("127.0.0.1:0").context("no port on loopback")?;
     let address = listener.local_addr().context("no address on loopback")?;
-    let (cpu_before, begun) = (usage::cpu_s(), Instant::now());
+    let (cpu_before, begun) = (cpu_s(std::process::id()), Instant::now());
     let sender = std::thread::spawn(move || -> std::io::Result<()> {
         let mut stream = TcpStream::connect(address)?;
         let message = vec![1; message_bytes];
@@ -50,8 +35,8 @@ pub fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> 
             Err(why) => return Err(why).context("loopback cannot be read"),
         }
     }
-    let (elapsed_s, cpu_s) = (begun.elapsed().as_secs_f64(), usage::cpu_s() - cpu_before);
     sender.join().map_err(|_| anyhow::anyhow!("the sender panicked"))?.context("loopback cannot be written")?;
-    let bytes = (messages * message_bytes as u64) as f64;
-    Ok(Raw { mb_per_s: bytes / 1e6 / elapsed_s, cpu_s_per_gb: cpu_s / (bytes / 1e9).max(1e-9) })
+    let (elapsed_s, used_s) = (begun.elapsed().as_secs_f64(), cpu_s(std::process::id()) - cpu_before);
+    let megabytes = (messages * message_bytes as u64) as f64 / 1e6;
+    Ok([megabytes / elapsed_s, used_s / (megabytes / 1e3).max(1e-9)])
 }

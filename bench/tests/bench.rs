@@ -31,7 +31,7 @@ fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
 fn a_fleet_refuses_a_kept_folder_and_a_second_mode() {
     let folder = tempfile::tempdir().unwrap();
     let fleet = |args: &[&str]| run(folder.path(), &[&["fleet"], args].concat());
-    std::fs::create_dir_all(folder.path().join("kept/fleet")).unwrap();
+    std::fs::create_dir_all(folder.path().join("kept/bench")).unwrap();
     assert_refused(&fleet(&["--keep", "kept"]), 2, &["--keep kept", "name another folder"]);
     assert_refused(&fleet(&["--set", "learner.mode=async"]), 2, &["learner.mode=async", "--mode"]);
 }
@@ -56,7 +56,7 @@ fn bus_measures_a_learner_among_actors_over_each_transport() {
             let time_ms = |name: &str| result[format!("{kind}_{name}_ms")].as_f64().unwrap();
             assert!(time_ms("p50") <= time_ms("p99"), "{result}");
         }
-        assert_eq!((&result["silent"], &result["refused"]), (&0.0.into(), &0.0.into()), "{result}");
+        assert_eq!(result["dropped"], 0, "{result}");
         assert_eq!(result["policies_fetched"], 6, "two policies to each of three actors: {result}");
         assert_eq!(result["through_shared_memory"].as_f64().unwrap() > 0.0, transport == "shared memory", "{result}");
         let steps = result["steps"].as_array().unwrap();
@@ -92,13 +92,12 @@ fn bus_refuses_invalid_flags() {
 
 /// Runs `fleet` with a learner of the preset `smoke`, whose fragments have 64 steps, and checks what every run adds up to.
 fn fleet(args: &[&str]) -> Value {
-    let smoke = ["fleet", "--preset", "smoke", "--actors", "3", "--envs", "4", "--seconds", "0.5", "--warmup-s", "0"];
+    let smoke = ["fleet", "--preset", "smoke", "--actors", "3", "--envs", "4", "--seconds", "0.5"];
     let result = bench(&[&smoke, args].concat());
     let fragments = &result["fragments"];
     let count = |name: &str| fragments[name].as_u64().unwrap_or_else(|| panic!("{name}: {result}"));
-    assert_eq!(count("produced"), count("accepted") + count("dropped") + count("in_flight"), "{result}");
-    assert_eq!(count("dropped"), count("too_old") + count("vanished"), "{result}");
-    for name in ["produced", "accepted", "dropped", "in_flight"] {
+    assert_eq!(result["in_flight"], count("produced") - count("accepted") - count("dropped"), "{result}");
+    for name in ["produced", "accepted", "dropped"] {
         assert_eq!(count(&format!("{name}_steps")), 64 * 4 * count(name), "{name} of 256 transitions each: {result}");
     }
     let untrained = count("accepted_steps") as i64 - result["trained_in_all_steps"].as_i64().unwrap();
@@ -109,7 +108,7 @@ fn fleet(args: &[&str]) -> Value {
     let (trained, dropped) = (figure("trained_steps"), figure("dropped_steps"));
     assert_eq!(figure("used_share"), trained / (trained + dropped), "{result}");
     assert!(figure("updates") >= 5.0 && figure("update_steps_per_s") > 0.0 && figure("learner_resident_max_mb") > 0.0);
-    for kind in ["receipt", "policy_fetch", "send_late"] {
+    for kind in ["receipt", "policy_fetch"] {
         assert!(figure(&format!("{kind}_p50_ms")) <= figure(&format!("{kind}_p99_ms")), "{result}");
     }
     result
@@ -118,18 +117,14 @@ fn fleet(args: &[&str]) -> Value {
 #[test]
 fn fleet_counts_every_fragment_of_a_learner_in_lock_step() {
     let result = fleet(&["--rate", "4000", "--slow", "0.5"]);
-    assert_eq!((&result["mode"], &result["rate_sum"]), (&"sync".into(), &10_000.0.into()));
+    assert_eq!((&result["mode"], &result["rate_max"]), (&"sync".into(), &4000.0.into()));
     assert_eq!(result["policy_lag_max"], 0.0);
-    assert_eq!(result["update_steps_per_s_before"], Value::Null);
 }
 
 #[test]
 fn fleet_counts_every_fragment_of_actors_behind_a_router() {
-    let result = fleet(&["--mode", "async", "--routers", "1", "--calibrate-s", "0.5"]);
+    let result = fleet(&["--mode", "async", "--routers", "1"]);
     assert_eq!((&result["mode"], &result["transport"]), (&"async".into(), &"tcp".into()));
-    let figure = |name: &str| result[name].as_f64().unwrap_or_else(|| panic!("{name}: {result}"));
-    let load = figure("rate_sum") / figure("update_steps_per_s_before");
-    assert!((load - 0.8).abs() < 1e-3, "{result}");
 }
 
 #[test]

@@ -98,7 +98,6 @@ class Fleet:
         self.binary, self.folder, self.prefix, self.certificates = binary, folder, prefix, certificates
         self.settings = SETTINGS | (settings or {})
         self.run = run or folder / "run"
-        self.older = None
         self.processes, self.current = [], {}
         self.samples, self.is_over = [], threading.Event()
         folder.mkdir(parents=True)

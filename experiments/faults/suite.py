@@ -60,9 +60,6 @@ def run_one(arguments, name, certificates):
         account["mistakes"] += [f"{name} did not stop after SIGTERM" for name in stuck]
         panics = [process.err for process in fleet.processes if "panicked" in process.err.read_text(errors="replace")]
         account["mistakes"] += [f"a panic in {path}" for path in panics]
-        if options.get("older"):
-            # Older actors print no final JSON, so their incarnations are unknown.
-            account["mistakes"] = [text for text in account["mistakes"] if "no actor has the incarnation" not in text]
         row = {"name": name, "title": title, "account": account, "note": experiment.note, "curve": table.curve(fleet)}
         keys = ("detected", "recovered", "before", "during", "after", "updates_repeated")
         row |= {key: getattr(experiment, key) for key in keys}

@@ -38,7 +38,6 @@ COLUMNS = [
 def measure(binary, transport, arguments):
     command = [pathlib.Path(binary).with_name("treadmill-bench"), "bus", "--json", *TRANSPORTS[transport]]
     command += ["--actors", arguments.actors, "--seconds", str(arguments.seconds)]
-    command += ["--pause-ms", str(arguments.pause_ms)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return json.loads(done.stdout.strip().splitlines()[-1])
 
@@ -66,7 +65,6 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--actors", default="1,10,50,100,200")
     parser.add_argument("--seconds", type=float, default=5.0)
-    parser.add_argument("--pause-ms", type=int, default=0)
     parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     load_before, results = os.getloadavg()[0], {transport: [] for transport in TRANSPORTS}
@@ -80,12 +78,12 @@ def main():
     every = [step for rounds in results.values() for result in rounds for step in result["steps"]]
     raw = cell([step["raw_tcp_mb_per_s"] for step in every], 0)
     raw_cpu = cell([step["raw_tcp_cpu_s_per_gb"] for step in every], 2)
-    lost = {name: int(sum(step[name] for step in every)) for name in ("busy", "silent", "refused")}
+    resent, dropped = (int(sum(step[name] for step in every)) for name in ("resent", "dropped"))
     text = [
         f"Treadmill {commit}; {one['cpu']}, {one['cores']} cores; load of the machine before: {load_before:.1f}. "
         f"{arguments.rounds} rounds of {arguments.seconds:g} s; fragments of {one['fragment_bytes']} bytes, policies of "
-        f"{one['policy_bytes']} bytes. Raw TCP: {raw} MB/s, {raw_cpu} CPU-s/GB. Answered busy: {lost['busy']}; "
-        f"without a receipt: {lost['silent']}; rejected for another reason: {lost['refused']}.",
+        f"{one['policy_bytes']} bytes. Raw TCP: {raw} MB/s, {raw_cpu} CPU-s/GB. Sent again: {resent}; "
+        f"dropped: {dropped}.",
         "",
         *table(results, arguments.actors.split(",")),
     ]

@@ -16,7 +16,7 @@ use std::{fs::File, io::Read, path::Path, sync::Arc, time::Instant};
 use bytes::Bytes;
 use flate2::read::GzDecoder;
 use tar::Archive;
-use treadmill_bus::admission::Admission;
+use treadmill_bus::learner::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::RobotCard};
@@ -112,79 +112,37 @@ pub fn actor_state(data: &[u8]) {
     fragment(&message);
 }
 
-/// Decodes a policy bundle.
-pub fn bundle(data: &[u8]) {
-    if let Ok(bundle) = PolicyBundle::decode(Bytes::copy_from_slice(data)) {
-        let encoded = bundle.encode().expect("what was decoded can be encoded");
-        assert_eq!(PolicyBundle::decode(encoded).expect("what was encoded can be decoded"), bundle);
-    }
+/// Declares a target that decodes bytes, and encodes and decodes again what it got.
+macro_rules! round_trip {
+    ($($what:literal $name:ident: $decode:expr, $encode:expr;)*) => {$(
+        #[doc = concat!("Decodes ", $what, ".")]
+        pub fn $name(data: &[u8]) {
+            if let Ok(decoded) = $decode(data) {
+                assert_eq!($decode(&$encode(&decoded)[..]), Ok(decoded), "what was encoded can be decoded");
+            }
+        }
+    )*};
 }
 
-/// Decodes an announcement.
-pub fn announcement(data: &[u8]) {
-    if let Ok(announcement) = PolicyAnnouncement::decode(data) {
-        assert_eq!(PolicyAnnouncement::decode(&announcement.encode()), Ok(announcement));
-    }
-}
-
-/// Decodes a request for a piece of a policy.
-pub fn policy_request(data: &[u8]) {
-    if let Ok(request) = PolicyRequest::decode(data) {
-        assert_eq!(PolicyRequest::decode(&request.encode()), Ok(request));
-    }
-}
-
-/// Decodes a piece of a policy.
-pub fn policy_piece(data: &[u8]) {
-    if let Ok(piece) = PolicyPiece::decode(Bytes::copy_from_slice(data)) {
-        assert_eq!(PolicyPiece::decode(piece.encode()), Ok(piece));
-    }
-}
-
-/// Decodes a receipt.
-pub fn receipt(data: &[u8]) {
-    if let Ok(receipt) = Receipt::decode(data) {
-        assert_eq!(Receipt::decode(&receipt.encode()), Ok(receipt));
-    }
-}
-
-/// Decodes the manifest of a run in a store.
-pub fn manifest(data: &[u8]) {
-    if let Ok(manifest) = Manifest::decode(data) {
-        assert_eq!(Manifest::decode(&manifest.encode()), Ok(manifest));
-    }
-}
-
-/// Decodes statistics of an actor.
-pub fn stats(data: &[u8]) {
-    if let Ok(stats) = ActorStats::decode_checked(data) {
-        assert_eq!(ActorStats::decode_checked(&stats.to_bytes()), Ok(stats));
-    }
-}
-
-/// Decodes a report of an evaluation.
-pub fn evaluation(data: &[u8]) {
-    if let Ok(report) = EvaluationReport::decode(data) {
-        assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report));
-    }
-}
-
-/// Decodes a pose.
-pub fn pose(data: &[u8]) {
-    if let Ok(pose) = Pose::decode_checked(data) {
-        let encoded = pose.to_bytes().expect("what was decoded can be encoded");
-        assert_eq!(Pose::decode_checked(&encoded), Ok(pose));
-    }
+round_trip! {
+    "a policy bundle" bundle: |data| PolicyBundle::decode(Bytes::copy_from_slice(data)),
+        |bundle: &PolicyBundle| bundle.encode().expect("what was decoded can be encoded");
+    "an announcement" announcement: PolicyAnnouncement::decode, PolicyAnnouncement::encode;
+    "a request for a piece of a policy" policy_request: PolicyRequest::decode, PolicyRequest::encode;
+    "a piece of a policy" policy_piece: |data| PolicyPiece::decode(Bytes::copy_from_slice(data)), PolicyPiece::encode;
+    "a receipt" receipt: Receipt::decode, Receipt::encode;
+    "the manifest of a run in a store" manifest: Manifest::decode, Manifest::encode;
+    "statistics of an actor" stats: ActorStats::decode_checked, ActorStats::to_bytes;
+    "a report of an evaluation" evaluation: EvaluationReport::decode, EvaluationReport::encode;
+    "a pose" pose: Pose::decode_checked, |pose: &Pose| pose.to_bytes().expect("what was decoded can be encoded");
+    "a scalar on a JSON topic" metric: Metric::from_json, Metric::to_json;
+    "a finished episode on a JSON topic" episode: EpisodeReport::from_json, EpisodeReport::to_json;
 }
 
 /// Decodes the objects on the JSON topics.
 pub fn json(data: &[u8]) {
-    if let Ok(metric) = Metric::from_json(data) {
-        assert_eq!(Metric::from_json(&metric.to_json()), Ok(metric));
-    }
-    if let Ok(report) = EpisodeReport::from_json(data) {
-        assert_eq!(EpisodeReport::from_json(&report.to_json()), Ok(report));
-    }
+    metric(data);
+    episode(data);
 }
 
 /// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.

@@ -13,10 +13,7 @@ use treadmill_policy::{
     normaliser::RunningMoments,
     to_safetensors,
 };
-use treadmill_proto::{
-    ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyPiece, PolicyRequest, PolicyVersion, Pose, Receipt, RewardTerm, json::Metric,
-};
+use treadmill_proto::{ActorState, EndCause, Episode, Fragment, PolicyBundle, PolicyVersion, RewardTerm};
 
 /// Name of the run.
 pub const RUN: &str = "walk";
@@ -133,21 +130,6 @@ pub fn bundle() -> Vec<u8> {
     .expect("a valid message")
 }
 
-/// Encodes an announcement.
-pub fn announcement() -> Vec<u8> {
-    PolicyAnnouncement { version: version(), checksum: 5, actor_checksum: 6 }.encode()
-}
-
-/// Encodes a request for a piece of a policy.
-pub fn policy_request() -> Vec<u8> {
-    PolicyRequest { known: Some(version()), announced: Some(version()), config_hash: CONFIG_HASH, offset: 3 }.encode()
-}
-
-/// Encodes a piece of a policy.
-pub fn policy_piece() -> Vec<u8> {
-    PolicyPiece::cut(RUN, version(), &Bytes::from(bundle()), 3).encode()
-}
-
 /// Encodes a manifest.
 pub fn manifest() -> Vec<u8> {
     Manifest {
@@ -166,66 +148,30 @@ pub fn manifest() -> Vec<u8> {
     .encode()
 }
 
-/// Encodes a receipt.
-pub fn receipt() -> Vec<u8> {
-    Receipt {
-        outcome: Outcome::TooOld,
-        reason: "because".into(),
-        version: version(),
-        durable_through: 3,
-        fragment_steps: 16,
-    }
-    .encode()
+/// Messages as they were first encoded: a name and bytes in hexadecimal in each line.
+const GOLDEN: &str = include_str!("../../proto/tests/golden/messages-1.txt");
+
+/// Declares functions that return an encoded message.
+macro_rules! golden {
+    ($($what:literal $function:ident = $name:literal;)*) => {$(
+        #[doc = concat!("Returns ", $what, ".")]
+        pub fn $function() -> Vec<u8> {
+            let hex = GOLDEN.lines().find_map(|line| line.strip_prefix(concat!($name, " "))).expect("a golden message");
+            let byte = |at: usize| u8::from_str_radix(&hex[at..at + 2], 16).expect("two digits");
+            (0..hex.len()).step_by(2).map(byte).collect()
+        }
+    )*};
 }
 
-/// Encodes statistics of an actor.
-pub fn stats() -> Vec<u8> {
-    ActorStats { actor: ACTOR.into(), host: "here".into(), env_steps_per_s: 0.5, produced: 3, ..Default::default() }
-        .to_bytes()
-}
-
-/// Encodes the pose of a single body.
-pub fn pose() -> Vec<u8> {
-    let pose = Pose {
-        run: RUN.into(),
-        actor: ACTOR.into(),
-        actor_incarnation: 7,
-        version: Some(version().into()),
-        config_hash: CONFIG_HASH,
-        episode: 1,
-        step: 2,
-        time_s: 0.03,
-        bodies: vec![0.5, 0.25, 1.25, 1.0, 0.0, 0.0, 0.0],
-        contacts: vec![0.5, 0.25, 0.0, 0.0, 0.0, 400.0],
-        joint_torques_nm: vec![-40.0],
-        reward_survive: 5.0,
-        ..Pose::default()
-    };
-    pose.to_bytes().expect("a valid message")
-}
-
-/// Encodes a report of an evaluation.
-pub fn evaluation() -> Vec<u8> {
-    EvaluationReport {
-        run: RUN.into(),
-        evaluator: "e".into(),
-        version: version(),
-        episodes: 10,
-        return_mean: 6000.0,
-        return_std: 3.0,
-        length_mean: 990.0,
-        distance_mean_m: 20.0,
-        velocity_mean_mps: 1.3,
-        falls: 1,
-        velocity_error_mps: Some(0.1),
-        yaw_rate_error_radps: Some(0.2),
-    }
-    .encode()
-}
-
-/// Encodes a scalar.
-pub fn metric() -> Vec<u8> {
-    Metric { run: RUN.into(), tag: "a/b".into(), step: 3, value: 0.1, time_unix_s: 1.5 }.to_json()
+golden! {
+    "an announcement" announcement = "announcement";
+    "a request for a piece of a policy" policy_request = "policy_request";
+    "a piece of a policy" policy_piece = "policy_piece";
+    "a receipt" receipt = "receipt.too_old";
+    "statistics of an actor" stats = "stats";
+    "the pose of a single body" pose = "pose";
+    "a report of an evaluation" evaluation = "evaluation";
+    "a scalar" metric = "metric";
 }
 
 /// Encodes the content of a checkpoint.

@@ -2,67 +2,19 @@
 
 use bytes::{Buf, Bytes};
 use prost::Message;
-use serde::{Deserialize, Serialize};
 
 use crate::{
-    ActorState, Malformed, check_range, check_size,
+    ActorState, Malformed, PolicyVersion, check_range, check_size,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes,
     receipt::check_fragment_steps,
-    scan, wire,
+    scan, version, wire,
 };
 
 /// Kind of message in errors.
 const BUNDLE: &str = "policy bundle";
-
-/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation and gets a higher
-/// epoch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct PolicyVersion {
-    /// Learner process that made the policy.
-    pub incarnation: u64,
-    /// Updates since the run began.
-    pub number: u64,
-    /// Term of that learner; 0 if unknown. It is no part of a checkpoint.
-    #[serde(skip)]
-    pub epoch: u64,
-}
-
-impl PolicyVersion {
-    /// Version of an unknown epoch.
-    #[must_use]
-    pub const fn new(incarnation: u64, number: u64) -> Self {
-        Self { incarnation, number, epoch: 0 }
-    }
-
-    /// Whether both name the same policy, which incarnation and number identify: senders of before there were epochs repeat
-    /// a version without one.
-    #[must_use]
-    pub const fn names_same_policy(self, other: Self) -> bool {
-        self.incarnation == other.incarnation && self.number == other.number
-    }
-
-    /// Whether this version is certainly older than the other one: of a lower term, or of a lower number in the same term.
-    #[must_use]
-    pub const fn is_before(self, other: Self) -> bool {
-        let is_known = self.epoch != 0 && other.epoch != 0;
-        is_known && (self.epoch < other.epoch || self.epoch == other.epoch && self.number < other.number)
-    }
-}
-
-impl From<PolicyVersion> for wire::PolicyVersion {
-    fn from(version: PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
-    }
-}
-
-impl From<wire::PolicyVersion> for PolicyVersion {
-    fn from(version: wire::PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
-    }
-}
 
 /// Announcement of the newest policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +23,7 @@ pub struct PolicyAnnouncement {
     pub version: PolicyVersion,
     /// Checksum of the weights.
     pub checksum: u64,
-    /// Checksum of the weights that actors get; 0 if unknown.
+    /// Checksum of the weights that actors get.
     pub actor_checksum: u64,
 }
 
@@ -87,7 +39,7 @@ impl PolicyAnnouncement {
         check_size("announcement", bytes.len(), SMALL_BYTES_MAX)?;
         let message = wire::PolicyAnnouncement::decode(bytes).map_err(Malformed::undecodable("announcement"))?;
         let wire::PolicyAnnouncement { checksum, actor_checksum, .. } = message;
-        Ok(Self { version: version(message.version)?, checksum, actor_checksum })
+        Ok(Self { version: version::required(message.version)?, checksum, actor_checksum })
     }
 
     /// Returns whether `bundle` is of another version or has the announced weights, with or without the critic.
@@ -131,11 +83,11 @@ pub struct PolicyBundle {
     pub actor_state: Option<ActorState>,
     /// Control steps of a fragment of an actor that has no receipt yet; 0 means `rollout.fragment_steps`.
     pub fragment_steps: u32,
-    /// Wire version of the learner; 0 means before there were any.
+    /// Wire version of the learner; 0 if unknown.
     pub wire_version: u32,
     /// Smallest [`WIRE_VERSION`](crate::WIRE_VERSION) of actors that know every key which this run sets; 0 admits all.
     pub wire_version_min: u32,
-    /// Version of the physics that this run trains with; 0 means 1, and has no meaning in runs of external tasks.
+    /// Version of the physics that this run trains with; 0 in runs of external tasks, which have none.
     pub physics_version: u32,
     /// Last entries of an observation that only the critic sees.
     pub privileged_size: u32,
@@ -218,7 +170,7 @@ impl PolicyBundle {
         check_range("observation_size", message.observation_size, WIDTH_MAX)?;
         let size = message.observation_size as usize;
         let bundle = Self {
-            version: version(message.version)?,
+            version: version::required(message.version)?,
             observation_mean: planes::from_bytes("observation_mean", &message.observation_mean, size)?,
             observation_inverse_std: planes::from_bytes(
                 "observation_inverse_std",
@@ -245,10 +197,6 @@ impl PolicyBundle {
         bundle.check()?;
         Ok(bundle)
     }
-}
-
-pub(crate) fn version(version: Option<wire::PolicyVersion>) -> Result<PolicyVersion, Malformed> {
-    version.map(Into::into).ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
 }
 
 /// Checks the number of widths before decoding, because one encoded byte becomes four.
@@ -294,15 +242,6 @@ mod tests {
             wire_version_min: 1,
             physics_version: 3,
             privileged_size: 1,
-        }
-    }
-
-    #[test]
-    fn only_versions_of_known_terms_have_an_order() {
-        let version = |epoch, number| PolicyVersion { epoch, ..PolicyVersion::new(1, number) };
-        assert!(version(2, 5).is_before(version(2, 6)) && version(2, 9).is_before(version(3, 1)));
-        for (one, other) in [((2, 6), (2, 6)), ((2, 6), (2, 5)), ((3, 1), (2, 9)), ((0, 1), (2, 9)), ((2, 1), (0, 9))] {
-            assert!(!version(one.0, one.1).is_before(version(other.0, other.1)), "{one:?} {other:?}");
         }
     }
 

@@ -3,7 +3,7 @@
 use prost::Message;
 
 use crate::{
-    Malformed, PolicyVersion, bundle, check_finite, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, wire,
+    Malformed, PolicyVersion, check_finite, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, version, wire,
 };
 
 /// Results of deterministic episodes of one policy.
@@ -82,7 +82,7 @@ impl EvaluationReport {
         Ok(Self {
             run: message.run,
             evaluator: message.evaluator,
-            version: bundle::version(message.version)?,
+            version: version::required(message.version)?,
             episodes: message.episodes,
             return_mean: message.return_mean,
             return_std: message.return_std,

@@ -4,13 +4,13 @@ use bytes::{Buf, BufMut, Bytes};
 use prost::Message;
 
 use crate::{
-    ActorState, Malformed, PolicyVersion, Precision, bundle, check_range, check_size,
+    ActorState, Malformed, PolicyVersion, Precision, check_range, check_size,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes,
     reward_term::{self, RewardTerm},
-    scan, wire,
+    scan, version, wire,
 };
 
 /// Flag bit of a transition that ended the episode by a rule of the task.
@@ -107,9 +107,9 @@ pub struct Fragment {
     pub env_steps: u64,
     /// Seconds that the sender simulated this fragment, without waits; 0 if it does not measure them.
     pub collect_s: f64,
-    /// Wire version of the sender; 0 means before there were any.
+    /// Wire version of the sender; 0 if unknown.
     pub wire_version: u32,
-    /// Version of the physics that the sender simulates; 0 means 1, and has no meaning in runs of external tasks.
+    /// Version of the physics that the sender simulates; 0 in runs of external tasks, which have none.
     pub physics_version: u32,
     /// Terms of the reward, as means over the transitions; empty if the task names none.
     pub reward_terms: Vec<RewardTerm>,
@@ -258,7 +258,7 @@ impl Fragment {
         // `check` compares this number with the flags.
         let last_count = last_observations.remaining() / precision.bytes();
         let fragment = Self {
-            version: bundle::version(message.version)?,
+            version: version::required(message.version)?,
             observations: precision.read("observations", observations, rows * width)?,
             actions: planes::read("actions", actions, rows * action)?,
             log_probs: planes::read("log_probs", log_probs, rows)?,

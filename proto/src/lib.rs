@@ -4,11 +4,12 @@
 //! - [`wire`]: structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollout fragments, checked on both sides.
 //! - [`precision`]: precision of observations on the wire.
-//! - [`prepared`]: one encoded fragment sent under many names, and transitions that fragments of any size repeat.
+//! - [`prepared`]: one encoded fragment sent under many names.
 //! - [`bundle`]: policy bundles and their announcements.
 //! - [`policy_pieces`]: conditional requests for the newest policy, answered in pieces.
 //! - [`actor_state`]: complete state of an actor, for deterministic runs.
 //! - [`receipt`]: answers of the learner to fragments.
+//! - [`version`]: versions of a policy.
 //! - [`stats`]: statistics of an actor.
 //! - [`pose`]: poses of an actor's body.
 //! - [`task`]: registration of external tasks.
@@ -40,6 +41,7 @@ pub mod receipt;
 pub mod reward_term;
 pub mod stats;
 pub mod task;
+pub mod version;
 
 mod pieces;
 mod planes;
@@ -64,18 +66,19 @@ mod wire_tensorboard {
 }
 
 pub use actor_state::ActorState;
-pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
+pub use bundle::{PolicyAnnouncement, PolicyBundle};
 pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use policy_pieces::{PolicyPiece, PolicyRequest};
 pub use pose::Pose;
 pub use precision::Precision;
-pub use prepared::{PreparedFragment, PreparedTransitions};
+pub use prepared::PreparedFragment;
 pub use receipt::{Outcome, Receipt};
 pub use reward_term::RewardTerm;
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};
+pub use version::PolicyVersion;
 
 /// Version of the messages and of the configuration keys that actors know. Raised with each release that adds a field or
 /// a key on which actors depend.

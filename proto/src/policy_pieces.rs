@@ -7,10 +7,10 @@ use bytes::Bytes;
 use prost::Message;
 
 use crate::{
-    Malformed, PolicyVersion, bundle, check_size,
+    Malformed, PolicyVersion, check_size,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, PIECE_BYTES_MAX, SMALL_BYTES_MAX},
-    wire,
+    version, wire,
 };
 
 /// Kinds of message in errors.
@@ -118,7 +118,7 @@ impl PolicyPiece {
         }
         Ok(Self {
             run: message.run,
-            version: bundle::version(message.version)?,
+            version: version::required(message.version)?,
             total_bytes: total,
             offset: message.offset,
             data: message.data,

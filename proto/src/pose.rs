@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, bundle, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::check_finite, wire};
+use crate::{Malformed, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::check_finite, version, wire};
 
 pub use wire::Pose;
 
@@ -36,7 +36,7 @@ impl Pose {
     fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
         check_ident("actor", &self.actor)?;
-        bundle::version(self.version)?;
+        version::required(self.version)?;
         if self.bodies.is_empty() || !self.bodies.len().is_multiple_of(BODY_NUMBERS) {
             let expected = format!("{BODY_NUMBERS} numbers for each body");
             return Err(Malformed::length("bodies", self.bodies.len(), expected));

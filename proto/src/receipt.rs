@@ -3,9 +3,9 @@
 use prost::Message;
 
 use crate::{
-    Malformed, PolicyVersion, bundle, check_size,
+    Malformed, PolicyVersion, check_size,
     limits::{SMALL_BYTES_MAX, STEPS_MAX},
-    wire,
+    version, wire,
 };
 
 /// Outcome of a fragment.
@@ -82,7 +82,7 @@ impl Receipt {
         Ok(Self {
             outcome,
             reason: message.reason,
-            version: bundle::version(message.version)?,
+            version: version::required(message.version)?,
             durable_through: message.durable_through,
             fragment_steps: message.fragment_steps,
         })

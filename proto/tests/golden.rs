@@ -1,6 +1,6 @@
-//! Compatibility: old messages decode to the same values, and default fields do not change the encoding.
+//! Compatibility: messages as first written decode to the same values, and default fields do not change the encoding.
 //!
-//! `golden/messages-N.txt` holds one message a line, as an earlier version encoded it: its name and its bytes in
+//! `golden/messages-N.txt` holds one message a line, as it was first encoded: its name and its bytes in
 //! hexadecimal. Lines are added, never changed. With `TREADMILL_WRITE_GOLDEN=FILE`, the test writes the messages of
 //! this version.
 

@@ -254,8 +254,7 @@ class Bus:
     def fetch_policy(self, run, known=None, announced=None, config_hash=0):
         """Returns the newest policy bundle, or None if no learner answered.
 
-        With `known` and `config_hash`, the version and configuration in use, the bundle lacks what this actor has. An older
-        learner sends the whole bundle.
+        With `known` and `config_hash`, the version and configuration in use, the bundle lacks what this actor has.
         """
         request = schema.PolicyRequest(known=known, announced=announced, config_hash=config_hash)
         # The router that this session dialled may have the policy.
@@ -264,7 +263,7 @@ class Bus:
             bundle = fetch_pieces(self.ask, f"treadmill/{run}/policy/pieces{node}", request)
             if bundle is not None:
                 return bundle
-        return decoded(schema.PolicyBundle, self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH))
+        return None
 
     def submit(self, run, actor, fragment, timeout_s, settles=lambda receipt: True):
         """Sends a fragment. Returns the first receipt that `settles` accepts, or else the last one. None without any: the fragment

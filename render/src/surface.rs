@@ -170,14 +170,15 @@ mod tests {
                 let at = ray.at(distance_m);
                 field.height_at(at.x, at.y).map(|height_m| at.z - height_m)
             };
+            let is_above = |distance_m, error_m: f64| above(distance_m).is_none_or(|above_m| above_m > -error_m);
             let Some(hit) = Surface::new(Some(&field)).hit(&ray) else {
                 let end = (origin.z + 1.0) / -ray.direction.z;
-                prop_assert!((0..1000).all(|part| above(end * f64::from(part) / 1000.0).is_none_or(|above_m| above_m > -1e-9)));
+                prop_assert!((0..1000).all(|part| is_above(end * f64::from(part) / 1000.0, 1e-9)));
                 return Ok(());
             };
             prop_assert!(above(hit.distance_m).expect("inside").abs() < 1e-7);
             prop_assert!(hit.normal.z > 0.0 && (hit.normal.norm() - 1.0).abs() < 1e-12);
-            prop_assert!((0..1000).all(|part| above(hit.distance_m * f64::from(part) / 1000.0).is_none_or(|above_m| above_m > -1e-7)));
+            prop_assert!((0..1000).all(|part| is_above(hit.distance_m * f64::from(part) / 1000.0, 1e-7)));
         }
     }
 }

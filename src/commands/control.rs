@@ -3,7 +3,10 @@
 use std::time::Duration;
 
 use clap::{Args, Subcommand};
-use treadmill_bus::{Role, command, statuses};
+use treadmill_bus::{
+    Role,
+    observer::{command, statuses},
+};
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{

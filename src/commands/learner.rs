@@ -1,7 +1,5 @@
 //! `treadmill learner`: runs only the learner.
 
-use std::time::Duration;
-
 use clap::Args;
 use treadmill_bus::Role;
 use treadmill_humanoid::TaskRegistry;
@@ -42,16 +40,12 @@ pub struct LearnerArgs {
     /// Endpoint of a router to join; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
     connect: Vec<String>,
-    /// Time until the session is opened (ms).
-    #[arg(long, hide = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=60_000))]
-    begin_after_ms: u64,
 }
 
 /// Runs the learner until the run reaches its number of steps.
 pub fn run(args: LearnerArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let launcher = Launcher { command: RunCommand::Learner, tasks };
     check_run(args.run.as_deref())?;
-    std::thread::sleep(Duration::from_millis(args.begin_after_ms));
     let role = if args.standby { Role::Standby } else { Role::Learner };
     let options = args.network.listening_options(role, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;

@@ -4,7 +4,10 @@ use std::time::Duration;
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_bus::{PolicyCache, Role, SilentLearner};
+use treadmill_bus::{
+    Role,
+    learner::{PolicyCache, SilentLearner},
+};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
@@ -24,11 +27,11 @@ pub struct RouterArgs {
     connect: Vec<String>,
     #[command(flatten)]
     network: NetworkArgs,
-    /// Time until the session is opened (ms).
-    #[arg(long, hide = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=60_000))]
-    begin_after_ms: u64,
     /// Silence of a learner after which the router starts anew (s).
-    #[arg(long, hide = true, default_value_t = PATIENCE_S, value_parser = clap::value_parser!(u64).range(1..=PATIENCE_MAX_S))]
+    #[arg(
+        long, hide = true, default_value_t = PATIENCE_S,
+        value_parser = clap::value_parser!(u64).range(1..=PATIENCE_MAX_S)
+    )]
     patience_s: u64,
     /// Whether a learner has answered before.
     #[arg(long, hide = true, default_value_t = false, action = clap::ArgAction::Set)]
@@ -40,11 +43,10 @@ pub struct RouterArgs {
 const PATIENCE_S: u64 = 8;
 const PATIENCE_MAX_S: u64 = 240;
 /// Time between the two sessions, in which actors that have another endpoint go there.
-const PAUSE_MS: u64 = 2000;
+const PAUSE: Duration = Duration::from_secs(2);
 
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
-    std::thread::sleep(Duration::from_millis(args.begin_after_ms));
     let options = args.network.listening_options(Role::Router, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
     memory::use_one_arena();
@@ -72,12 +74,11 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         // router has it. A session that is closed can panic, and then keeps its memory.
         tracing::warn!(run, "the link is there, but no answers of the learner arrive; starting anew");
         let patience_s = if has_answers { PATIENCE_S } else { (2 * args.patience_s).min(PATIENCE_MAX_S) };
-        let why = restart(&[
+        let values = [
             ("--listen", endpoints),
-            ("--begin-after-ms", vec![PAUSE_MS.to_string()]),
             ("--patience-s", vec![patience_s.to_string()]),
             ("--expects-answers", vec![(args.expects_answers | has_answers).to_string()]),
-        ]);
-        Err(why).context("the router cannot start anew")
+        ];
+        Err(restart(&values, PAUSE)).context("the router cannot start anew")
     })
 }

@@ -12,7 +12,7 @@ pub(crate) mod route;
 
 use std::{fmt, time::Duration};
 
-use treadmill_bus::{Bus, BusOptions, live_runs};
+use treadmill_bus::{Bus, BusOptions, observer::live_runs};
 use treadmill_runtime::words::{nearest, quoted};
 
 use finding::{Finding, Severity};

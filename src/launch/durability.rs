@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use tokio::task::block_in_place;
-use treadmill_bus::StandbyMark;
+use treadmill_bus::learner::StandbyMark;
 use treadmill_learner::{
     checkpoint,
     leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},
@@ -93,8 +93,8 @@ impl StoredRun<'_> {
             None => block_in_place(|| self.begin_new(store)).map(Some),
             Some(_) if self.follows() => Ok(None),
             Some((manifest, _)) => Err(Usage(format!(
-                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
-                 `treadmill learner --standby`, or choose another URL",
+                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow \
+                 it with `treadmill learner --standby`, or choose another URL",
                 manifest.run,
                 thousands(manifest.env_steps)
             ))

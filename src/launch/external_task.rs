@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use treadmill_bus::{Bus, TaskServer};
+use treadmill_bus::{Bus, learner::TaskServer};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_proto::Task;
 use treadmill_runtime::shutdown::Shutdown;

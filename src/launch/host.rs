@@ -9,7 +9,7 @@ use std::{
 use anyhow::Context;
 use serde_json::json;
 use tokio::sync::oneshot;
-use treadmill_bus::{Bus, BusOptions, TaskServer};
+use treadmill_bus::{Bus, BusOptions, learner::TaskServer};
 use treadmill_config::Config;
 use treadmill_learner::{
     checkpoint::{EpisodeMeans, TrainingState},
@@ -171,8 +171,7 @@ impl<'a> Host<'a> {
     /// panic, and then keeps its memory. Returns only if the system refuses.
     pub fn restart(&self) -> std::io::Error {
         let page = self.page.iter().map(SocketAddr::to_string).collect();
-        let pause_ms = RESTART_PAUSE.as_millis().to_string();
-        restart(&[("--listen", self.endpoints.clone()), ("--prometheus", page), ("--begin-after-ms", vec![pause_ms])])
+        restart(&[("--listen", self.endpoints.clone()), ("--prometheus", page)], RESTART_PAUSE)
     }
 
     /// Closes the session.

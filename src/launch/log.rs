@@ -1,7 +1,7 @@
 //! Log on standard error: warnings, or the levels that `TREADMILL_LOG` sets.
 
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
-use treadmill_bus as bus;
+use treadmill_bus::log_tls_rejections;
 
 use crate::launch::output;
 
@@ -14,5 +14,5 @@ pub fn begin(more: &str) {
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
         .with_filter(filter);
-    tracing_subscriber::registry().with(log).with(bus::log_tls_rejections()).init();
+    tracing_subscriber::registry().with(log).with(log_tls_rejections()).init();
 }

@@ -35,7 +35,8 @@ impl ModelArgs {
                 .any(|section| pair.trim_start().starts_with(section))
             {
                 let why = format!(
-                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards], [ground] and [randomisation]"
+                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards], [ground] and \
+                     [randomisation]"
                 );
                 return Err(Usage(why).into());
             }

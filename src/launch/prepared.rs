@@ -172,8 +172,8 @@ pub fn complete(config: &mut Config) {
 pub fn open_device(config: &Config, kind: DeviceKind) -> Result<Device, Usage> {
     if config.run.deterministic && kind == DeviceKind::Cuda {
         return Err(Usage(
-            "--deterministic promises the same weights bit for bit, which a GPU does not compute; use --device cpu, or leave \
-             --deterministic out"
+            "--deterministic promises the same weights bit for bit, which a GPU does not compute; use --device cpu, or \
+             leave --deterministic out"
                 .to_string(),
         ));
     }

@@ -29,8 +29,8 @@ pub(crate) fn is_supported() -> bool {
     }
     // Failures to write are ignored: the exit code remains.
     let say = |text: &[u8]| drop(std::io::stderr().write_all(text));
-    say(b"error: this build of treadmill needs a processor with AVX2, FMA and BMI (x86-64-v3: Intel since 2013, AMD since 2015); \
-          this one lacks");
+    say(b"error: this build of treadmill needs a processor with AVX2, FMA and BMI (x86-64-v3: Intel since 2013, AMD \
+          since 2015); this one lacks");
     if osxsave & avx == 0 {
         say(b" AVX");
     }
@@ -46,8 +46,10 @@ pub(crate) fn is_supported() -> bool {
     if rest == 0 {
         say(b" F16C, MOVBE or LZCNT");
     }
-    say(b"; build it from source, which runs on every x86-64 processor: cargo install --locked --path . (in a virtual machine, \
-          expose the host's processor instead; QEMU: -cpu host)\n");
+    say(
+        b"; build it from source, which runs on every x86-64 processor: cargo install --locked --path . (in a virtual \
+          machine, expose the host's processor instead; QEMU: -cpu host)\n",
+    );
     false
 }
 

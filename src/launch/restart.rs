@@ -1,16 +1,42 @@
 //! Starts this program anew in the same process.
 
-use std::{env, ffi::OsString, io, os::unix::process::CommandExt, process::Command};
+use std::{
+    env,
+    ffi::OsString,
+    io,
+    os::unix::process::CommandExt,
+    process::{self, Command},
+    thread,
+    time::Duration,
+};
+
+/// Environment variable of a new start: the process, which its children are not, and its pause in milliseconds.
+const VARIABLE: &str = "TREADMILL_RESTARTED";
 
 /// Replaces this program by a new start of itself with the same arguments, except that each flag of `values` gets these
-/// values. Links, memory and threads of the present start end with it, whatever their state. Returns only if the system
-/// refuses.
-pub fn restart(values: &[(&str, Vec<String>)]) -> io::Error {
+/// values. Links, memory and threads of the present start end with it, whatever their state. The new one begins after
+/// `pause`. Returns only if the system refuses.
+pub fn restart(values: &[(&str, Vec<String>)], pause: Duration) -> io::Error {
     let mut arguments = env::args_os();
     let name = arguments.next().unwrap_or_default();
     // Also if the file of the program was replaced meanwhile.
-    let program = if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { env::current_exe() };
-    program.map_or_else(|why| why, |program| Command::new(program).arg0(name).args(replaced(arguments, values)).exec())
+    let program =
+        if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { env::current_exe().map(Into::into) };
+    let pause = format!("{} {}", process::id(), pause.as_millis());
+    let command = |program: OsString| {
+        Command::new(program).arg0(name).args(replaced(arguments, values)).env(VARIABLE, pause).exec()
+    };
+    program.map_or_else(|why| why, command)
+}
+
+/// Waits for the pause of a start that [`restart`] made.
+pub fn pause() {
+    let given = env::var(VARIABLE).unwrap_or_default();
+    if let Some((process, pause_ms)) = given.split_once(' ')
+        && process == process::id().to_string()
+    {
+        thread::sleep(Duration::from_millis(pause_ms.parse().unwrap_or(0)));
+    }
 }
 
 fn replaced(arguments: impl Iterator<Item = OsString>, values: &[(&str, Vec<String>)]) -> Vec<OsString> {

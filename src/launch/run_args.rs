@@ -139,7 +139,8 @@ fn task_keys(name: &str, tasks: &TaskRegistry) -> Result<Vec<(&'static str, toml
     let ours = name.to_lowercase();
     if EnvTask::NAMES.contains(&ours.as_str()) {
         return Err(Usage(format!(
-            "--task {name}: the built-in task is `{ours}`; `gymnasium/{name}` is Gymnasium's own, which Python actors simulate"
+            "--task {name}: the built-in task is `{ours}`; `gymnasium/{name}` is Gymnasium's own, which Python actors \
+             simulate"
         )));
     }
     Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])

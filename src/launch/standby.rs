@@ -3,7 +3,10 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use treadmill_bus::{BusError, is_any_actor_present, is_learner_present, statuses};
+use treadmill_bus::{
+    BusError,
+    observer::{is_any_actor_present, is_learner_present, statuses},
+};
 use treadmill_learner::leadership::{
     LeadershipError, Manifest, Status,
     follower::{LeaderSight, LoadedState, Sight, StateFollower},

@@ -46,8 +46,8 @@ impl InitFrom {
         let Self { from, saved: SavedPolicy { policy: ExportedPolicy { shape: theirs, .. }, .. } } = self;
         (theirs != ours).then(|| {
             format!(
-                "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of this run \
-                 have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
+                "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of \
+                 this run have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
                 theirs.observation, theirs.action, theirs.hidden, ours.observation, ours.action, ours.hidden
             )
         })

@@ -52,8 +52,7 @@ impl ReachArgs {
     #[must_use]
     pub fn idle_folder(&self) -> Option<RunFolder> {
         let folder = RunFolder::open(self.folder.as_ref()?).ok()?;
-        // Runs of earlier versions have no lock, so they may be running.
-        (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
+        holder(&folder).is_none().then_some(folder)
     }
 
     /// Returns that no process trains the run whose folder was given, and the remedy.

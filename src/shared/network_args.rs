@@ -72,8 +72,8 @@ impl NetworkArgs {
         };
         options.check()?;
         // A later call, which makes the same options, must change nothing.
-        let wanted =
-            threads::wanted(&options, role).filter(|(name, value)| std::env::var(name).as_deref() != Ok(*value));
+        let wanted = threads::wanted(options.is_encrypted(), role)
+            .filter(|(name, value)| std::env::var(name).as_deref() != Ok(*value));
         if let Some((name, value)) = wanted {
             // SAFETY: every command calls this before it starts a thread, so no other thread accesses the environment.
             unsafe { std::env::set_var(name, value) };
@@ -110,7 +110,8 @@ impl NetworkArgs {
         match credentials.missing() {
             None => Ok(Some(credentials)),
             Some(file) => Err(Usage(format!(
-                "--tls {}: `{}` does not exist; create it with `treadmill certs`, or copy it from the machine where that was run",
+                "--tls {}: `{}` does not exist; create it with `treadmill certs`, or copy it from the machine where that \
+                 was run",
                 credentials.folder.display(),
                 file.display()
             ))),

@@ -114,7 +114,8 @@ pub fn environment(
         if found != [*low, *high] {
             let [found_low, found_high] = found;
             anyhow::bail!(
-                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, its model from {low} to {high}"
+                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, its model from {low} \
+                 to {high}"
             );
         }
     }

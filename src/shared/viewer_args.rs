@@ -76,8 +76,8 @@ pub struct ViewerOutputArgs {
 
 /// Help for RUN, which `watch` takes in more forms than `status`.
 pub const RUN_HELP: &str = "\
-    Folder of a run, its name below runs/, a bundle file or an exported policy; with --live the folder of a run that trains on \
-    this machine";
+    Folder of a run, its name below runs/, a bundle file or an exported policy; with --live the folder of a run that \
+    trains on this machine";
 
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -10,7 +10,8 @@ const AWAIT_ACTORS: &str = r#"
 before=0
 await_actors() {
     for _ in $(seq 240); do
-        if tail -n "+$((before + 1))" runs/walk/metrics.jsonl | grep '"tag":"actors/alive"' | tail -1 | grep -q '"value":2.0'; then
+        if tail -n "+$((before + 1))" runs/walk/metrics.jsonl | grep '"tag":"actors/alive"' | tail -1 |
+            grep -q '"value":2.0'; then
             return
         fi
         sleep 0.5
@@ -54,7 +55,8 @@ fn the_guide_to_several_machines_works_as_printed() {
         .replace("hosts.sh up", &format!("hosts.sh up {prefix}"))
         .replace("hosts.sh down", &format!("hosts.sh down {prefix}"));
     let script = format!(
-        "{AWAIT_ACTORS}trap 'kill $(jobs -p) 2>/dev/null || true; experiments/faults/hosts.sh down {prefix}' EXIT\nset -eu\n{script}"
+        "{AWAIT_ACTORS}trap 'kill $(jobs -p) 2>/dev/null || true; experiments/faults/hosts.sh down {prefix}' EXIT\nset \
+         -eu\n{script}"
     );
     let binary = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap();
     let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());

@@ -11,11 +11,11 @@ use std::{
 
 use bytes::Bytes;
 use serde_json::json;
-use treadmill_proto::{ActorStats, Fragment, PolicyBundle, PolicyVersion, Receipt};
+use treadmill_proto::{ActorStats, Fragment, PolicyBundle, PolicyPiece, PolicyRequest, PolicyVersion, Receipt};
 use zenoh::{Config, Session, Wait, qos::CongestionControl};
 
 #[path = "../support/fragment.rs"]
-mod sample;
+pub mod sample;
 
 pub use self::sample::fragment;
 
@@ -125,13 +125,20 @@ impl Attacker {
         Some(Receipt::decode(&answer).expect("a receipt"))
     }
 
-    /// Answers queries for `key` with the present bytes of `reply`.
-    pub fn serve(&self, key: &str, reply: Arc<Mutex<Vec<u8>>>) {
+    /// Serves the policy in `bundle`, encoded as it is, to actors that have no other version.
+    pub fn serve_policy(&self, bundle: Arc<Mutex<Vec<u8>>>) {
         let answer = move |query: zenoh::query::Query| {
-            let bytes = reply.lock().unwrap().clone();
-            let _ = query.reply(query.key_expr().clone(), bytes).wait();
+            let encoded = Bytes::from(bundle.lock().unwrap().clone());
+            let PolicyBundle { run, version, .. } = PolicyBundle::decode(encoded.clone()).unwrap();
+            let request = query.payload().map(|payload| PolicyRequest::decode(&payload.to_bytes()).unwrap());
+            let piece = match request.unwrap_or_default() {
+                request if request.known == Some(version) => PolicyPiece::unchanged(&run, version),
+                request => PolicyPiece::cut(&run, version, &encoded, request.offset),
+            };
+            let _ = query.reply(query.key_expr().clone(), piece.encode()).wait();
         };
-        self.session.declare_queryable(key.to_string()).callback(answer).background().wait().unwrap();
+        let key = format!("treadmill/{}/policy/pieces", self.run);
+        self.session.declare_queryable(key).callback(answer).background().wait().unwrap();
     }
 
     /// Publishes a payload.

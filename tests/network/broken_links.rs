@@ -8,7 +8,7 @@ use std::{
     time::Duration,
 };
 
-use treadmill_bus::{Bus, statuses};
+use treadmill_bus::{Bus, observer::statuses};
 use treadmill_proto::RunStatus;
 
 use crate::support::*;

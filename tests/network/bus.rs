@@ -1,13 +1,30 @@
 //! Other clients of the bus: receipts for their fragments, and subscriptions.
 
-#[path = "../support/fragment.rs"]
-pub mod sample;
-
-use crate::support::*;
+use crate::{attacks::sample, support::*};
 use bytes::Bytes;
 use serde_json::Value;
-use treadmill_bus::{Bus, observe, submit};
-use treadmill_proto::{Fragment, Outcome, Receipt};
+use treadmill_bus::{Bus, actor::submit, observer::observe};
+use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, fragment::TERMINATED};
+
+/// Returns a whole batch of the preset `smoke`: 512 episodes of one step.
+pub fn batch(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
+    let (steps, envs) = (64, 8);
+    let rows = (steps * envs) as usize;
+    let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
+    let observations = wavy(rows * bundle.observation_size as usize);
+    let actions = wavy(rows * bundle.action_size as usize);
+    Fragment {
+        steps,
+        envs,
+        log_probs: sample::log_probs(bundle, &observations, &actions),
+        observations,
+        actions,
+        rewards: vec![1.0; rows],
+        flags: vec![TERMINATED; rows],
+        last_observations: vec![],
+        ..sample::fragment(bundle, actor, sequence)
+    }
+}
 
 /// Run that trains until the end of the test, and a client of its bus.
 struct Fixture {
@@ -75,20 +92,6 @@ async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continue
     await_steps(&fixture.run, steps + 2048);
     fixture.training.signal(libc::SIGINT);
     assert!(fixture.training.wait().0.success());
-}
-
-#[tokio::test(flavor = "multi_thread")]
-async fn a_sender_of_malformed_fragments_is_quarantined() {
-    let fixture = start();
-    for _ in 0..8 {
-        assert_eq!(send(&fixture.bus, vec![0xff; 100]).await.outcome, Outcome::Malformed);
-    }
-    let receipt = send(&fixture.bus, vec![0xff; 100]).await;
-    assert_eq!(receipt.outcome, Outcome::Quarantined);
-    assert!(receipt.reason.contains("stranger"));
-    await_that("the metric of quarantined senders", || {
-        last_value(&fixture.run, "actors/quarantined").filter(|count| *count == 1.0)
-    });
 }
 
 #[tokio::test(flavor = "multi_thread")]

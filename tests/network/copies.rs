@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusOptions, Role, RolloutCopies, observe};
+use treadmill_bus::{Bus, BusOptions, Role, learner::RolloutCopies, observer::observe};
 use treadmill_proto::Fragment;
 
 /// Capacity of a subscriber that loses nothing on a slow machine.

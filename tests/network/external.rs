@@ -2,13 +2,12 @@
 
 use std::{fs, path::Path, process::Command};
 
-use crate::{bus::sample::log_probs, support::*};
-use treadmill_bus::{Bus, Role, register_task};
+use crate::{bus::batch, support::*};
+use treadmill_bus::{Bus, Role, actor::register_task};
 use treadmill_config::ConfigSource;
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::{
     EndCause, Episode, Fragment, Outcome, PolicyBundle, Receipt, Task, TaskReceipt, TaskRegistration,
-    fragment::TERMINATED,
 };
 
 fn task() -> Task {
@@ -43,11 +42,8 @@ async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
     }
 }
 
-/// Returns a whole batch of the preset `smoke`: 512 terminated episodes of one step.
+/// Returns a whole batch with its episodes.
 fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
-    let (steps, envs) = (64, 8);
-    let rows = (steps * envs) as usize;
-    let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
     let episode = Episode {
         return_sum: 1.0,
         length: 1,
@@ -57,29 +53,8 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         ground_level: None,
         command_factor: None,
     };
-    let observations = wavy(rows * bundle.observation_size as usize);
-    let actions = wavy(rows * bundle.action_size as usize);
-    Fragment {
-        run: bundle.run.clone(),
-        actor: "count-1".into(),
-        actor_incarnation: 7,
-        sequence,
-        version: bundle.version,
-        config_hash: bundle.config_hash,
-        steps,
-        envs,
-        observation_size: bundle.observation_size,
-        action_size: bundle.action_size,
-        log_probs: log_probs(bundle, &observations, &actions),
-        observations,
-        actions,
-        rewards: vec![1.0; rows],
-        flags: vec![TERMINATED; rows],
-        last_observations: vec![],
-        episodes: vec![episode; rows],
-        settled_through: 0,
-        ..Fragment::default()
-    }
+    let batch = batch(bundle, "count-1", sequence);
+    Fragment { episodes: vec![episode; batch.rewards.len()], ..batch }
 }
 
 async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {

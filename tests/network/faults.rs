@@ -3,7 +3,7 @@
 use std::{fs, os::unix::process::CommandExt, path::Path, process::Stdio};
 
 use crate::support::*;
-use treadmill_bus::observe;
+use treadmill_bus::observer::observe;
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
 
@@ -224,7 +224,7 @@ fn a_token_that_routers_keep_of_a_killed_actor_is_no_obstacle() {
     let endpoint = endpoint(&run);
     let bus = join(&run);
     // No actor with this name sends anything.
-    let _kept = treadmill_bus::token(&bus, "run", "one").unwrap();
+    let _kept = treadmill_bus::actor::token(&bus, "run", "one").unwrap();
     let actor = actor(folder.path(), &endpoint, "one");
     actor.wait_for("the token of an actor of this name is there, but it sends nothing");
     actor.wait_for("joined run");

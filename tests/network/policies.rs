@@ -4,8 +4,9 @@ use std::{collections::BTreeMap, net::TcpListener, path::Path};
 
 use bytes::Bytes;
 use treadmill_bus::{
-    Alive, Bus, BusOptions, FetchedPolicy, PolicyServer, PublishedPolicy, ServedPolicies, fetch_newer_policy,
-    fetch_policy,
+    Bus, BusOptions,
+    actor::{FetchedPolicy, fetch_newer_policy, fetch_policy},
+    learner::{Alive, PolicyServer, PublishedPolicy, ServedPolicies},
 };
 use treadmill_proto::{PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::seeds;

@@ -3,7 +3,11 @@
 use std::time::Duration;
 
 use crate::support::*;
-use treadmill_bus::{Bus, BusOptions, Feed, Message, PosePublisher, Role, observe};
+use treadmill_bus::{
+    Bus, BusOptions, Role,
+    actor::PosePublisher,
+    observer::{Feed, Message, observe},
+};
 use treadmill_humanoid::Model;
 use treadmill_proto::Pose;
 

@@ -5,7 +5,10 @@ use std::{sync::Arc, time::Duration};
 use bytes::Bytes;
 use treadmill_actor::{delivery::Uploader, policy_fetcher::PolicyFetcher};
 use treadmill_bus::{
-    Bus, RolloutCopies, RolloutIntake, admission::Admission, command, newest_of_each_run, statuses, submit,
+    Bus,
+    actor::submit,
+    learner::{Admission, RolloutCopies, RolloutIntake},
+    observer::{command, newest_of_each_run, statuses},
 };
 use treadmill_policy::{NetworkShape, actor_to_safetensors};
 use treadmill_proto::{Command, ControlRequest, Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus, wire};

@@ -6,13 +6,14 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use crate::{attacks::Attacker, support::*};
+use crate::{attacks::Attacker, bus::batch, support::*};
 use toml::{Table, Value};
-use treadmill_actor::acting_policy::ActingPolicy;
-use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission};
+use treadmill_bus::{
+    Bus, BusOptions,
+    learner::{Admission, RolloutCopies, RolloutIntake},
+};
 use treadmill_humanoid::PHYSICS_VERSION;
-use treadmill_policy::gaussian;
-use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, WIRE_VERSION, fragment::TERMINATED};
+use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, WIRE_VERSION};
 
 /// Field 1000 with three bytes, which no schema of this version has.
 const UNKNOWN_FIELD: [u8; 6] = [0xc2, 0x3e, 3, 1, 2, 3];
@@ -71,7 +72,7 @@ impl NextLearner {
         let rollouts = RolloutIntake::open(&bus, "run", 4, Arc::new(Admission::new(8, 4)), &copies).unwrap();
         let client = Attacker::join(&endpoints[0], "run", None, TIMEOUT).unwrap();
         let bundle = Arc::new(Mutex::new(bundle));
-        client.serve("treadmill/run/policy/latest", bundle.clone());
+        client.serve_policy(bundle.clone());
         Self { bundle, rollouts, endpoint: endpoints[0].clone(), bus, _client: client }
     }
 
@@ -131,7 +132,7 @@ async fn an_actor_refuses_what_it_must_not_ignore_by_name() {
     for command in ["actor", "evaluator"] {
         refused(command, other_physics.clone(), 1, &[&wanted, "use the same version of treadmill"]);
     }
-    // A key with an effect that older actors do not know.
+    // A key with an effect that this version does not know.
     let newer = PolicyBundle { wire_version_min: WIRE_VERSION + 1, ..bundle.clone() };
     let needed = format!("wire version {}", WIRE_VERSION + 1);
     refused(
@@ -145,60 +146,27 @@ async fn an_actor_refuses_what_it_must_not_ignore_by_name() {
     refused("actor", next_version(&bundle, task), 2, &["`env.task` is \"humanoid-v6\"", "\"humanoid-v5\""]);
 }
 
-/// Returns the log-probability of actions of 0 where every entry of the observation is 0.5.
-fn log_prob(bundle: &PolicyBundle) -> f32 {
-    let policy = ActingPolicy::new(bundle).unwrap();
-    let action = vec![0.0; bundle.action_size as usize];
-    let (observation, mut means) = (vec![0.5; bundle.observation_size as usize], action.clone());
-    policy.means(&observation, 1, &mut Vec::new(), &mut means).unwrap();
-    gaussian::log_probability(&action, &means, policy.log_std())
-}
-
-/// Returns a whole batch of the preset `smoke`.
-fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
-    let (steps, envs) = (64, 8);
-    let rows = (steps * envs) as usize;
-    Fragment {
-        run: bundle.run.clone(),
-        actor: "next-1".into(),
-        actor_incarnation: 7,
-        sequence,
-        version: bundle.version,
-        config_hash: bundle.config_hash,
-        steps,
-        envs,
-        observation_size: bundle.observation_size,
-        action_size: bundle.action_size,
-        observations: vec![0.5; rows * bundle.observation_size as usize],
-        actions: vec![0.0; rows * bundle.action_size as usize],
-        log_probs: vec![log_prob(bundle); rows],
-        rewards: vec![5.0; rows],
-        flags: vec![TERMINATED; rows],
-        ..Fragment::default()
-    }
-}
-
 async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
     deliver(bus, &fragment.actor, [&fragment.encode().unwrap()[..], &UNKNOWN_FIELD].concat()).await
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_learner_accepts_fragments_of_the_version_before_and_the_next_but_no_other_physics() {
+async fn a_learner_accepts_fragments_of_other_wire_versions_but_of_no_other_physics() {
     let (folder, run) = folders();
     let _learner = learner(folder.path(), &run);
     let bus = join(&run);
-    // Senders of before there were versions do not set the version of the wire.
+    // A sender that does not set the version of the wire is accepted, too.
     for (sequence, wire_version) in [(1, 0), (2, WIRE_VERSION + 1)] {
         let physics_version = PHYSICS_VERSION;
         let bundle = policy(&bus).await;
-        let receipt = send(&bus, &Fragment { wire_version, physics_version, ..fragment(&bundle, sequence) }).await;
+        let receipt =
+            send(&bus, &Fragment { wire_version, physics_version, ..batch(&bundle, "next-1", sequence) }).await;
         assert_eq!((receipt.outcome, &receipt.reason[..]), (Outcome::Accepted, ""));
         assert_eq!(receipt.version.number, sequence, "one update for each");
     }
     let bundle = policy(&bus).await;
-    // A sender of before there were versions of the physics has the first one.
     for physics_version in [0, PHYSICS_VERSION + 1] {
-        let receipt = send(&bus, &Fragment { physics_version, ..fragment(&bundle, 3) }).await;
+        let receipt = send(&bus, &Fragment { physics_version, ..batch(&bundle, "next-1", 3) }).await;
         assert_eq!(receipt.outcome, Outcome::Malformed);
         let reason = &receipt.reason;
         assert!(reason.contains("`physics_version`") && reason.contains("same version"), "{reason}");

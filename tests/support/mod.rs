@@ -22,7 +22,12 @@ pub use process::*;
 use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
 use time::OffsetDateTime;
-use treadmill_bus::{Bus, BusOptions, ControlServer, Credentials, Role, fetch_policy, submit, workarounds::threads};
+use treadmill_bus::{
+    Bus, BusOptions, Credentials, Role,
+    actor::{fetch_policy, submit},
+    learner::ControlServer,
+    workarounds::threads,
+};
 use treadmill_proto::{ControlReply, PolicyBundle, Receipt, RunStatus};
 
 /// Longest wait for a condition, which only a broken program reaches.
@@ -72,8 +77,7 @@ pub fn endless(folder: &Path, run: &Path, command: &str) -> Command {
 pub fn bus_on_one_thread() {
     static SET: Once = Once::new();
     SET.call_once(|| {
-        let options = BusOptions { connect: vec!["tls/localhost:1".to_string()], ..BusOptions::default() };
-        if let Some((name, value)) = threads::wanted(&options, Role::Actor) {
+        if let Some((name, value)) = threads::wanted(true, Role::Actor) {
             // SAFETY: these tests access the environment only through Rust's functions, which lock it.
             unsafe { std::env::set_var(name, value) };
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::support::*;
-use treadmill_bus::{Assignment, ask_for_evaluation};
+use treadmill_bus::actor::{Assignment, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
 /// Starts a run whose policies are evaluated often.

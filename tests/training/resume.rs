@@ -90,6 +90,10 @@ fn five_updates_and_five_resumed_updates_equal_ten() {
         assert_ne!(half.ppo.parameters(), wanted.ppo.parameters());
         let (found, _) = resume(folder.path(), &halves, 10, &[]);
         assert_same(&found, &wanted);
+        assert_ne!(found.lineage.newest().incarnation, half.lineage.newest().incarnation);
+        let logged = metrics(&halves).into_iter().filter(|(tag, ..)| tag == "train/std").map(|(_, step, _)| step);
+        let steps: Vec<u64> = (1..=10).map(|update| update * BATCH).collect();
+        assert_eq!(logged.collect::<Vec<_>>(), steps, "no step is missing or logged twice");
         // Again from a kept checkpoint: each holds the actor's state.
         let (found, _) = resume(folder.path(), &halves, 10, &["--checkpoint", "8"]);
         assert_eq!(found.counters.resumes, 2);

@@ -4,7 +4,11 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use treadmill_actor::settings::RunSettings;
-use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
+use treadmill_bus::{
+    Bus, Role,
+    actor::fetch_policy,
+    observer::{Feed, watch_poses},
+};
 use treadmill_config::EnvTask;
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
@@ -96,7 +100,7 @@ struct ActorPoses<'a> {
 
 impl<'a> ActorPoses<'a> {
     fn open(bus: &'a Bus, run: &str, requested: Option<&str>) -> anyhow::Result<Self> {
-        let feed = observe(bus, &keys::poses(run, requested.unwrap_or("*")), POSE_QUEUE)?;
+        let feed = watch_poses(bus, run, requested, POSE_QUEUE)?;
         let (requested, last_pose) = (requested.map(str::to_string), Instant::now());
         Ok(Self { bus, run: run.to_string(), current: requested.clone(), requested, feed, last_pose, refused: 0 })
     }
@@ -104,7 +108,7 @@ impl<'a> ActorPoses<'a> {
     /// Subscribes to one actor, or to all if `None`.
     fn subscribe(&mut self, actor: Option<String>) -> anyhow::Result<()> {
         // The old subscription ends after the new one began, so that the actor always has a subscriber.
-        self.feed = observe(self.bus, &keys::poses(&self.run, actor.as_deref().unwrap_or("*")), POSE_QUEUE)?;
+        self.feed = watch_poses(self.bus, &self.run, actor.as_deref(), POSE_QUEUE)?;
         self.current = actor;
         self.last_pose = Instant::now();
         Ok(())
@@ -120,7 +124,7 @@ impl<'a> ActorPoses<'a> {
             return Ok(None);
         };
         let pose = match Pose::decode_checked(&message.payload) {
-            Ok(pose) if pose.run == self.run && keys::last_part(&message.key) == pose.actor => pose,
+            Ok(pose) if pose.run == self.run && message.last_part() == pose.actor => pose,
             Ok(pose) => return Ok(self.refuse(&format!("key `{}` with actor `{}`", message.key, pose.actor))),
             Err(why) => return Ok(self.refuse(&error_chain(&why))),
         };

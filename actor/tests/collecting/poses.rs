@@ -5,7 +5,7 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
     poses::{PoseSampler, stride},
 };
-use treadmill_bus::Watched;
+use treadmill_bus::actor::Watched;
 use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, TaskRegistry};
 use treadmill_proto::{PolicyVersion, Pose};
 

@@ -100,7 +100,8 @@ fn any_event() -> impl Strategy<Value = Value> {
     prop_oneof![
         3 => Just(json!({"event": "produced"})),
         6 => (1_u64..8, outcome, 0_u64..4, 0_u64..8).prop_map(|(sequence, outcome, epoch, durable_through)| json!({
-            "event": "answered", "sequence": sequence, "outcome": outcome, "epoch": epoch, "durable_through": durable_through,
+            "event": "answered", "sequence": sequence, "outcome": outcome, "epoch": epoch,
+            "durable_through": durable_through,
         })),
         2 => (1_u64..8).prop_map(|sequence| json!({"event": "silent", "sequence": sequence})),
         1 => (0_u64..4).prop_map(|epoch| json!({"event": "heard", "epoch": epoch})),

@@ -224,7 +224,7 @@ mod tests {
         let end = shape().log_std().end;
         let expected: Vec<f32> = numbers()[..end].iter().copied().chain(vec![0.0; numbers().len() - end]).collect();
         assert_eq!(actor_from_safetensors(&bytes, &shape()).expect("own bytes"), expected);
-        // The bytes of older learners hold the critic, too.
+        // A whole bundle holds the critic, too.
         let whole = to_safetensors(&shape(), &numbers());
         assert_eq!(actor_from_safetensors(&whole, &shape()).expect("own bytes"), expected);
         assert!(matches!(from_safetensors(&bytes, &shape()), Err(ParameterError::Missing { .. })));

@@ -22,7 +22,7 @@ pub struct SeenEpoch {
 
 impl SeenEpoch {
     /// Notes an epoch of `run`. Returns false if a higher one was seen before: what came with it must not be used. An
-    /// epoch of 0 is unknown, as of learners before there were epochs, and always admitted.
+    /// epoch of 0 is unknown, and always admitted.
     pub fn admits(&self, run: &str, epoch: u64) -> bool {
         let mut highest = self.highest.lock().expect("no holder of this lock panics");
         if highest.0 != run {

@@ -60,7 +60,8 @@ pub enum RunFolderError {
     },
     /// Another process writes into the folder.
     #[error(
-        "`{path}` is in use by {holder}; stop that process first, as by `treadmill control stop {}`, or choose another --run-dir",
+        "`{path}` is in use by {holder}; stop that process first, as by `treadmill control stop {}`, or choose another \
+         --run-dir",
         quoted(path)
     )]
     InUse {

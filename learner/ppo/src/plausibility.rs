@@ -56,8 +56,8 @@ pub enum Implausible {
     },
     /// A log-probability that no policy gives to its own sample.
     #[error(
-        "the log-probability of transition {row} is {claimed}; samples of a policy have {least} to {most}; the actor must send \
-         log-probabilities of the actions that it drew"
+        "the log-probability of transition {row} is {claimed}; samples of a policy have {least} to {most}; the actor \
+         must send log-probabilities of the actions that it drew"
     )]
     OutOfRange {
         /// Transition.
@@ -71,7 +71,8 @@ pub enum Implausible {
     },
     /// A reward, return or advantage is absurdly large.
     #[error(
-        "the {quantity} of transition {row} is {value:e}, beyond {limit:e}; check the rewards of the environment of this actor"
+        "the {quantity} of transition {row} is {value:e}, beyond {limit:e}; check the rewards of the environment of this \
+         actor"
     )]
     Magnitude {
         /// Scaled reward, return or advantage.

@@ -40,7 +40,7 @@ pub struct TrainingState {
     pub best_is_evaluated: bool,
     /// State of a deterministic run's only actor after the last fragment that was learnt from.
     pub actor_state: Option<ActorState>,
-    /// Version of the physics that simulated the last episodes; 0 means 1, and has no meaning for external tasks.
+    /// Version of the physics that simulated the last episodes; 0 in runs of external tasks, which have none.
     pub physics_version: u32,
 }
 
@@ -215,8 +215,7 @@ impl TrainingState {
     /// # Errors
     /// If the run has a newer physics.
     pub fn adopt_physics(&mut self, ours: u32) -> Result<(), String> {
-        // Runs of before there were versions have physics 1.
-        let theirs = self.physics_version.max(1);
+        let theirs = self.physics_version;
         if theirs > ours {
             return Err(format!(
                 "this program simulates physics {ours}, the run has physics {theirs}: continue with the version that wrote \

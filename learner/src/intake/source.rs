@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::{Alive, IncomingFragment, ReceivedFragment, RolloutCopies, RolloutIntake};
+use treadmill_bus::learner::{Alive, IncomingFragment, ReceivedFragment, RolloutCopies, RolloutIntake};
 use treadmill_proto::{PolicyVersion, Receipt};
 
 use crate::waiting::Heartbeat;

@@ -3,10 +3,7 @@
 use std::{sync::Arc, time::Instant};
 
 use serde::{Deserialize, Serialize};
-use treadmill_bus::{
-    ReceivedFragment,
-    admission::{Admission, Sender, rate_limited_log::RateLimitedLog},
-};
+use treadmill_bus::learner::{Admission, RateLimitedLog, ReceivedFragment, Sender};
 use treadmill_experience::{
     ledger::{DropRule, KnownFragment, Ledger, LedgerEntry},
     lineage::{Descent, Lineage},
@@ -251,8 +248,7 @@ impl FragmentValidator {
                 return differ(field, found.to_string(), format!("{wanted}, as the policy bundle says"));
             }
         }
-        // Senders of before there were versions simulate physics 1.
-        let (found, wanted) = (fragment.physics_version.max(1), expected.physics_version);
+        let (found, wanted) = (fragment.physics_version, expected.physics_version);
         if wanted != 0 && found != wanted {
             let wanted = format!("{wanted}, the physics of the run: use the same version of treadmill");
             return differ("physics_version", found.to_string(), wanted);

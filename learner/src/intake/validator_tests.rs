@@ -77,7 +77,7 @@ fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
 }
 
 #[test]
-fn another_physics_is_refused_by_name_and_none_counts_as_the_first() {
+fn another_physics_is_refused_by_name() {
     let lineage = lineage(0);
     let outcome = |expected: u32, found: u32| {
         let mut validator = validator();
@@ -86,12 +86,13 @@ fn another_physics_is_refused_by_name_and_none_counts_as_the_first() {
         let validated = validator.validate("a", fragment.encode().unwrap().into(), &lineage, Instant::now());
         validated.map(drop).map_err(|receipt| receipt.reason)
     };
-    for (expected, found) in [(1, 0), (1, 1), (2, 2), (0, 0), (0, 7)] {
+    for (expected, found) in [(1, 1), (2, 2), (0, 0), (0, 7)] {
         assert_eq!(outcome(expected, found), Ok(()), "{expected} {found}");
     }
-    for (expected, found, shown) in [(1, 2, 2), (2, 1, 1), (2, 0, 1), (2, u32::MAX, u32::MAX)] {
+    for (expected, found) in [(1, 2), (2, 1), (2, 0), (2, u32::MAX)] {
         let wanted = format!(
-            "field `physics_version` is {shown}; expected {expected}, the physics of the run: use the same version of treadmill"
+            "field `physics_version` is {found}; expected {expected}, the physics of the run: use the same version of \
+             treadmill"
         );
         assert_eq!(outcome(expected, found), Err(wanted));
     }

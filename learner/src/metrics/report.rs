@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, io, time::Duration};
 
-use treadmill_bus::{Bus, keys, publish_dropping};
+use treadmill_bus::{Bus, learner::publish_metric};
 use treadmill_config::Config;
 use treadmill_proto::json::Metric;
 use treadmill_runtime::{error_chain, machine, run_folder::RunFolder};
@@ -148,7 +148,7 @@ impl MetricsReport {
     /// Publishes a metric. Each tag's publisher is declared once, because a key takes memory until the session ends.
     fn publish(&mut self, metric: &Metric) {
         if !self.publishers.contains_key(&metric.tag) {
-            match publish_dropping(&self.bus, keys::metric(&self.run, &metric.tag)) {
+            match publish_metric(&self.bus, &self.run, &metric.tag) {
                 Ok(publish) => drop(self.publishers.insert(metric.tag.clone(), Box::new(publish))),
                 Err(why) => {
                     return tracing::warn!(tag = %metric.tag, error = %error_chain(&why), "metric not published");

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use treadmill_bus::admission::rate_limited_log::RateLimitedLog;
+use treadmill_bus::learner::RateLimitedLog;
 use treadmill_config::{Config, LearnerMode};
 use treadmill_ppo::{UpdateError, UpdateStats};
 use treadmill_runtime::error_chain;

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusError, EvaluationServer};
+use treadmill_bus::{Bus, BusError, learner::EvaluationServer};
 use treadmill_proto::{EvaluationReport, PolicyVersion};
 
 /// Most policies that evaluators may be playing at the same time, and the next one; the oldest ones are dropped.

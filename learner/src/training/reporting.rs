@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::StatsFeed;
+use treadmill_bus::learner::StatsFeed;
 use treadmill_config::Config;
 use treadmill_runtime::atomic_file;
 

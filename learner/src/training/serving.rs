@@ -6,7 +6,8 @@ use std::{
 };
 
 use treadmill_bus::{
-    Alive, Bus, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission,
+    Bus,
+    learner::{Admission, Alive, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed},
 };
 use treadmill_config::{Config, LearnerMode};
 use treadmill_experience::lineage::Lineage;

@@ -8,7 +8,7 @@ use std::{collections::BTreeSet, sync::Arc, time::Duration};
 
 use proptest::prelude::*;
 use rand::RngExt;
-use treadmill_bus::admission::Admission;
+use treadmill_bus::learner::Admission;
 use treadmill_config::{Config, LearnerMode};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_learner::intake::{

@@ -2,7 +2,7 @@
 
 use std::{io, time::Duration};
 
-use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, observer::statuses};
 use treadmill_proto::{ControlReply, RunStatus};
 use treadmill_runtime::{error_chain, holder::Holder, machine};
 

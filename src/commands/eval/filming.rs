@@ -30,7 +30,10 @@ pub struct FilmArgs {
     #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures")]
     size: Size,
     /// Pictures per second.
-    #[arg(long, value_name = "N", default_value_t = 25, requires = "pictures", value_parser = clap::value_parser!(u32).range(1..=50))]
+    #[arg(
+        long, value_name = "N", default_value_t = 25, requires = "pictures",
+        value_parser = clap::value_parser!(u32).range(1..=50)
+    )]
     fps: u32,
     /// Begin after this many seconds of each episode.
     #[arg(long, value_name = "S", default_value_t = 0.0, requires = "pictures", value_parser = seconds)]

@@ -25,9 +25,10 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
         .collect();
     let velocity = &contract.config.velocity;
     let mut text = format!(
-        "joint_ids_map: [{ids}]\nstep_dt: {step:?}\nstiffness: {stiffness}\ndamping: {damping}\ndefault_joint_pos: {offset}\n\
-         commands:\n  base_velocity:\n    ranges:\n      lin_vel_x: {x}\n      lin_vel_y: {y}\n      ang_vel_z: {yaw}\n      \
-         heading: null\n\
+        "joint_ids_map: [{ids}]\nstep_dt: {step:?}\nstiffness: {stiffness}\ndamping: {damping}\n\
+         default_joint_pos: {offset}\n\
+         commands:\n  base_velocity:\n    ranges:\n      lin_vel_x: {x}\n      lin_vel_y: {y}\n      \
+         ang_vel_z: {yaw}\n      heading: null\n\
          actions:\n  JointPositionAction:\n    clip: [{clip}]\n    joint_names: [{names}]\n    scale: {scale}\n    \
          offset: {offset}\n    joint_ids: null\nobservations:\n",
         ids = joints.iter().map(|joint| joint.motor.to_string()).collect::<Vec<_>>().join(", "),

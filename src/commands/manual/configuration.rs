@@ -8,7 +8,8 @@ use super::heading;
 /// Returns the page.
 pub fn page() -> String {
     let mut page = heading("Configuration keys", "their declarations");
-    page += "\n[configuration.md](../guide/configuration.md) explains where values come from and what is checked. Each key has its\n";
+    page += "\n[configuration.md](../guide/configuration.md) explains where values come from and what is checked. \
+             Each key has its\n";
     page +=
         "default and the allowed values. *Live* keys can change during a run, by `treadmill control set KEY VALUE`.\n";
     for section in Config::sections() {

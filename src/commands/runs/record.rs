@@ -57,7 +57,6 @@ impl Record {
                 record.config.insert(format!("{section}.{key}"), value.to_string());
             }
         }
-        // Runs of earlier versions have no labels.
         let label = |key: &str| table.get("run").and_then(|keys| keys.get(key)).cloned();
         record.tags = label("tags").and_then(|tags| tags.try_into().ok()).unwrap_or_default();
         record.description = label("description").and_then(|text| text.try_into().ok()).unwrap_or_default();

@@ -6,7 +6,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::{Bus, BusOptions, MetricsFeed, newest_of_each_run, statuses};
+use treadmill_bus::{
+    Bus, BusOptions,
+    observer::{MetricsFeed, newest_of_each_run, statuses},
+};
 use treadmill_proto::{RunStatus, json::Metric};
 use treadmill_runtime::error_chain;
 

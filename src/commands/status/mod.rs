@@ -27,7 +27,10 @@ mod waiting;
 use std::time::Duration;
 
 use clap::Args;
-use treadmill_bus::{Role, newest_of_each_run, statuses};
+use treadmill_bus::{
+    Role,
+    observer::{newest_of_each_run, statuses},
+};
 use treadmill_proto::{ControlReply, RunStatus};
 
 use self::waiting::Waiting;

@@ -5,9 +5,7 @@ use std::{collections::BTreeSet, sync::Arc};
 use nalgebra::Point3;
 use treadmill_humanoid::config::{GroundConfig, GroundKind, VelocityConfig};
 use treadmill_humanoid::model::{Geometry, HeightField};
-use treadmill_humanoid::{
-    EnvConfig, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, Physics, RandomisationConfig,
-};
+use treadmill_humanoid::{EnvConfig, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, Physics};
 
 use crate::velocity::{CARD, with_card};
 

@@ -8,18 +8,25 @@ use std::{
 
 use treadmill_proto::{Command, ControlReply, ControlRequest, RunStatus};
 use zenoh::{
-    Wait,
     bytes::ZBytes,
     qos::{CongestionControl, Priority},
     query::{ConsolidationMode, Query},
 };
 
-use crate::{
-    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
-};
+use super::shared::{reply_on, serve};
+use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
+/// Last part of the key of commands.
+const CONTROL: &str = "control";
+/// Last part of the key of status requests, also from peers that may not send commands.
+const STATUS: &str = "status";
 /// Requests that may wait. Further ones get no answer, and the client asks again.
 const QUEUE: usize = 256;
+
+/// Returns `treadmill/{run}/control` or `treadmill/{run}/status`.
+fn key(run: &str, last_part: &str) -> String {
+    format!("treadmill/{run}/{last_part}")
+}
 
 /// Request that waits for its answer.
 pub struct PendingRequest {
@@ -31,13 +38,8 @@ pub struct PendingRequest {
 impl PendingRequest {
     /// Answers on the key of `run`, even if the request did not name a run.
     pub fn answer(self, run: &str, reply: &ControlReply) {
-        let key = match self.query.key_expr().as_str().ends_with("/control") {
-            true => keys::control(run),
-            false => keys::status(run),
-        };
-        if let Err(error) = self.query.reply(key, reply.to_bytes()).wait() {
-            tracing::debug!(what = "control reply", %error, "reply not sent");
-        }
+        let may_command = self.query.key_expr().as_str().ends_with(CONTROL);
+        reply_on(&self.query, &key(run, if may_command { CONTROL } else { STATUS }), reply.to_bytes(), "control reply");
     }
 }
 
@@ -52,7 +54,7 @@ impl ControlServer {
         let (sender, queue) = sync_channel(QUEUE);
         let open = |key: String, may_command: bool| {
             let (sender, refusals) = (sender.clone(), RateLimitedLog::default());
-            declare_queryable(&bus.session, key, move |query| {
+            serve(bus, key, "listening to commands", move |query| {
                 let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
                 match ControlRequest::decode_checked(&payload) {
                     Ok(request) if may_command || request.command() == Command::Status => {
@@ -67,10 +69,9 @@ impl ControlServer {
                     Err(error) => refusals.emit(|| tracing::warn!(%error, "control request rejected")),
                 }
             })
-            .map_err(BusError::flow("listening to commands"))
         };
-        open(keys::control(run), true)?;
-        open(keys::status(run), false)?;
+        open(key(run, CONTROL), true)?;
+        open(key(run, STATUS), false)?;
         Ok(Self { queue })
     }
 
@@ -83,7 +84,7 @@ impl ControlServer {
 /// Returns the status of every learner of `run`, or of all runs, that answers. Beside its successor, one that was
 /// overtaken may answer.
 pub async fn statuses(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Vec<ControlReply>, BusError> {
-    ask(bus, keys::status(run.unwrap_or("*")), &ControlRequest::plain(Command::Status), timeout).await
+    ask(bus, key(run.unwrap_or("*"), STATUS), &ControlRequest::plain(Command::Status), timeout).await
 }
 
 /// Returns one status for each run, in the order of their names: that of the newest epoch.
@@ -109,7 +110,7 @@ pub async fn command(
     request: &ControlRequest,
     timeout: Duration,
 ) -> Result<Option<ControlReply>, BusError> {
-    let replies = ask(bus, keys::control(run), request, timeout).await?;
+    let replies = ask(bus, key(run, CONTROL), request, timeout).await?;
     Ok(replies.into_iter().max_by_key(|reply| reply.status.as_ref().map(epoch)))
 }
 

@@ -15,13 +15,17 @@ use zenoh::{
     query::{ConsolidationMode, Query},
 };
 
-use super::{next_valid, reply, start_thread};
-use crate::{
-    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
-};
+use super::shared::{last_part, next_valid, reply, serve, start_thread};
+use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
+
+/// Returns `treadmill/{run}/evaluations/{evaluator}`.
+fn key(run: &str, evaluator: &str) -> String {
+    format!("treadmill/{run}/evaluations/{evaluator}")
+}
+
 type Candidate = Mutex<Option<Offer>>;
 
 /// Policy to evaluate.
@@ -46,11 +50,10 @@ impl EvaluationServer {
         let (report_sender, reports) = sync_channel(QUEUE);
         start_thread("evaluation-server", {
             let (candidate, run) = (candidate.clone(), run.to_string());
-            move || serve(requests, &run, &candidate, &report_sender)
+            move || answer_all(requests, &run, &candidate, &report_sender)
         })?;
         let receive = move |query| drop(request_sender.try_send(query));
-        declare_queryable(&bus.session, keys::evaluations(run, "*"), receive)
-            .map_err(BusError::flow("handing out policies for evaluation"))?;
+        serve(bus, key(run, "*"), "handing out policies for evaluation", receive)?;
         Ok(Self { candidate, reports })
     }
 
@@ -67,7 +70,7 @@ impl EvaluationServer {
     }
 }
 
-fn serve(requests: Receiver<Query>, run: &str, candidate: &Candidate, reports: &SyncSender<EvaluationReport>) {
+fn answer_all(requests: Receiver<Query>, run: &str, candidate: &Candidate, reports: &SyncSender<EvaluationReport>) {
     let rejections = RateLimitedLog::default();
     for query in requests {
         // An invalid report gets no reply: a policy is large, and its sender does not evaluate.
@@ -88,7 +91,7 @@ struct Rejected;
 /// Returns the report in a query, if there is one.
 fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Result<Option<EvaluationReport>, Rejected> {
     let Some(payload) = query.payload().filter(|payload| !payload.is_empty()) else { return Ok(None) };
-    let evaluator = keys::last_part(query.key_expr().as_str());
+    let evaluator = last_part(query.key_expr().as_str());
     let report = check_ident("evaluator", evaluator).and_then(|()| EvaluationReport::decode(&payload.to_bytes()));
     match report {
         Ok(report) if report.run == run && report.evaluator == evaluator => return Ok(Some(report)),
@@ -134,7 +137,7 @@ pub async fn ask_for_evaluation(
 ) -> Result<Assignment, BusError> {
     let replies = bus
         .session
-        .get(keys::evaluations(run, evaluator))
+        .get(key(run, evaluator))
         .payload(report.map_or_else(Vec::new, EvaluationReport::encode))
         .timeout(timeout)
         .consolidation(ConsolidationMode::None)

@@ -1,70 +1,71 @@
-//! Flows of the bus, one file for each kind of message.
+//! Flows of the bus: a file for each kind of message, with its key and both of its ends. Here is what each side needs.
 
-pub(crate) mod control;
-pub(crate) mod copies;
-pub(crate) mod evaluation;
-pub(crate) mod observer;
-pub(crate) mod policies;
-pub(crate) mod policy_cache;
-pub(crate) mod policy_fetch;
-pub(crate) mod policy_pieces;
-pub(crate) mod poses;
-pub(crate) mod presence;
-pub(crate) mod publications;
-pub(crate) mod received;
-pub(crate) mod rollouts;
-mod silences;
-pub(crate) mod standby_mark;
-pub(crate) mod stats;
-pub(crate) mod tasks;
-pub(crate) mod watched;
+mod control;
+mod episodes;
+mod evaluation;
+mod metrics;
+mod policies;
+mod poses;
+mod presence;
+mod rollouts;
+mod shared;
+mod stats;
+mod subscription;
+mod tasks;
+mod watched;
 
-use bytes::Bytes;
-use treadmill_proto::Malformed;
-use zenoh::{
-    Wait,
-    bytes::ZBytes,
-    handlers::FifoChannelHandler,
-    query::{Query, Reply},
-};
-
-use crate::BusError;
-
-/// Starts a thread.
-fn start_thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), BusError> {
-    let started = std::thread::Builder::new().name(name.to_string()).spawn(work);
-    started
-        .map(drop)
-        .map_err(|error| BusError::Flow { what: format!("starting thread {name}"), why: error.to_string() })
+/// What a learner needs, and a router that answers for it.
+pub mod learner {
+    pub use super::{
+        control::{ControlServer, PendingRequest},
+        evaluation::EvaluationServer,
+        metrics::publish_metric,
+        policies::{
+            cache::{PolicyCache, SilentLearner},
+            pieces::ServedPolicies,
+            server::{PolicyServer, PublishedPolicy},
+            standby_mark::StandbyMark,
+        },
+        presence::{Alive, AliveView},
+        rollouts::{
+            copies::RolloutCopies,
+            intake::{IncomingFragment, RolloutIntake},
+            received::ReceivedFragment,
+        },
+        stats::StatsFeed,
+        tasks::{Objection, TaskServer},
+    };
+    pub use crate::admission::{
+        Admission, AdmissionPermit, QUARANTINE, Refusal, Sender, Unread, rate_limited_log::RateLimitedLog,
+    };
 }
 
-/// Answers a query on its own key; logs a failure as `what`.
-fn reply(query: &Query, payload: impl Into<ZBytes>, what: &'static str) {
-    reply_on(query, query.key_expr().as_str(), payload, what);
+/// What actors and evaluators need.
+pub mod actor {
+    pub use super::{
+        episodes::publish_episodes,
+        evaluation::{Assignment, ask_for_evaluation},
+        policies::{
+            announcements::{Announcements, watch_announcements},
+            fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
+            standby_mark::is_behind_standby,
+        },
+        poses::PosePublisher,
+        presence::{is_actor_present, token},
+        rollouts::intake::submit,
+        stats::publish_stats,
+        tasks::register_task,
+        watched::Watched,
+    };
 }
 
-/// Answers a query on `key`; logs a failure as `what`. The bus drops the reply if the requester does not read.
-fn reply_on(query: &Query, key: &str, payload: impl Into<ZBytes>, what: &'static str) {
-    if let Err(error) = query.reply(key, payload).wait() {
-        tracing::debug!(what, %error, "reply not sent");
-    }
-}
-
-/// Returns the next valid reply to a query, or `None` if none came in time. Logs invalid replies as `what`.
-///
-/// The query must ask for replies as they come. By default, Zenoh holds the reply of one learner until all have
-/// answered, and a learner that was overtaken may be silent.
-async fn next_valid<T>(
-    replies: &FifoChannelHandler<Reply>,
-    what: &'static str,
-    decode: impl Fn(Bytes) -> Result<T, Malformed>,
-) -> Option<T> {
-    while let Ok(reply) = replies.recv_async().await {
-        let Ok(sample) = reply.result() else { continue };
-        match decode(Bytes::from(sample.payload().to_bytes().into_owned())) {
-            Ok(value) => return Some(value),
-            Err(error) => tracing::warn!(what, %error, "reply rejected"),
-        }
-    }
-    None
+/// What observers and operators need.
+pub mod observer {
+    pub use super::{
+        control::{command, newest_of_each_run, statuses},
+        metrics::MetricsFeed,
+        poses::watch_poses,
+        presence::{is_any_actor_present, is_learner_present, live_runs},
+        subscription::{Feed, Message, observe},
+    };
 }

@@ -10,7 +10,21 @@ use zenoh::{
     qos::{CongestionControl, Priority},
 };
 
-use crate::{Bus, BusError, Watched, keys};
+use super::{
+    subscription::{Feed, observe},
+    watched::Watched,
+};
+use crate::{error::BusError, session::Bus};
+
+/// Returns the key of an actor's poses.
+fn key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/poses/{actor}")
+}
+
+/// Subscribes to the poses of an actor, or of every actor; at most `capacity` wait.
+pub fn watch_poses(bus: &Bus, run: &str, actor: Option<&str>, capacity: usize) -> Result<Feed, BusError> {
+    observe(bus, &key(run, actor.unwrap_or("*")), capacity)
+}
 
 /// Publishes an actor's poses.
 pub struct PosePublisher {
@@ -24,7 +38,7 @@ impl PosePublisher {
     pub fn open(bus: &Bus, run: &str, actor: &str) -> Result<Self, BusError> {
         let publisher = bus
             .session
-            .declare_publisher(keys::poses(run, actor))
+            .declare_publisher(key(run, actor))
             .congestion_control(CongestionControl::Drop)
             .priority(Priority::Background)
             .wait()

@@ -17,7 +17,8 @@ use zenoh::{
     sample::{Sample, SampleKind},
 };
 
-use crate::{Bus, BusError, keys, workarounds::kept_routes::KeptRoutes};
+use super::shared::last_part;
+use crate::{error::BusError, session::Bus, workarounds::kept_routes::KeptRoutes};
 
 /// Most actors that are tracked; further tokens are ignored.
 const ACTORS_MAX: usize = 4096;
@@ -25,11 +26,31 @@ const ACTORS_MAX: usize = 4096;
 /// Most runs that [`live_runs`] returns.
 const RUNS_MAX: usize = 64;
 
+/// Returns `treadmill/{run}/actors/{actor}`, the key of an actor's token.
+fn actor_key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/actors/{actor}")
+}
+
+/// Returns `treadmill/{run}/actors/{actor}/stats`, the key of an actor's statistics.
+pub(super) fn stats_key(run: &str, actor: &str) -> String {
+    actor_key(run, actor) + "/stats"
+}
+
+/// Returns `treadmill/{run}/learner`, the key of the learner's token.
+fn learner_key(run: &str) -> String {
+    format!("treadmill/{run}/learner")
+}
+
+/// Returns the run in a key of [`learner_key`].
+fn run_of(key: &str) -> Option<&str> {
+    key.strip_prefix("treadmill/")?.strip_suffix("/learner")
+}
+
 /// Declares an actor's liveliness token, which lasts until it is dropped.
 pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use<>, BusError> {
     bus.session
         .liveliness()
-        .declare_token(keys::actor(run, actor))
+        .declare_token(actor_key(run, actor))
         .wait()
         .map_err(BusError::flow("declaring the actor's token"))
 }
@@ -39,7 +60,7 @@ pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as no.
 pub async fn is_actor_present(bus: &Bus, run: &str, actor: &str, timeout: Duration) -> Result<bool, BusError> {
-    is_present(bus, keys::actor(run, actor), timeout).await
+    is_present(bus, actor_key(run, actor), timeout).await
 }
 
 async fn is_present(bus: &Bus, key: String, timeout: Duration) -> Result<bool, BusError> {
@@ -58,7 +79,7 @@ async fn is_present(bus: &Bus, key: String, timeout: Duration) -> Result<bool, B
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as no.
 pub async fn is_learner_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
-    is_present(bus, keys::learner(run), timeout).await
+    is_present(bus, learner_key(run), timeout).await
 }
 
 /// Returns whether any actor of this run holds a token now.
@@ -66,7 +87,7 @@ pub async fn is_learner_present(bus: &Bus, run: &str, timeout: Duration) -> Resu
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as no.
 pub async fn is_any_actor_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
-    is_present(bus, keys::actor(run, "*"), timeout).await
+    is_present(bus, actor_key(run, "*"), timeout).await
 }
 
 /// Returns the names of the runs whose learners hold tokens now, in order.
@@ -74,12 +95,11 @@ pub async fn is_any_actor_present(bus: &Bus, run: &str, timeout: Duration) -> Re
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as none.
 pub async fn live_runs(bus: &Bus, timeout: Duration) -> Result<Vec<String>, BusError> {
-    let query = bus.session.liveliness().get(keys::learner("*")).timeout(timeout).wait();
+    let query = bus.session.liveliness().get(learner_key("*")).timeout(timeout).wait();
     let replies = query.map_err(BusError::flow("looking for learners' tokens"))?;
     let mut runs = BTreeSet::new();
     while let Ok(reply) = replies.recv_async().await {
-        let run =
-            reply.result().ok().and_then(|sample| keys::learner_run(sample.key_expr().as_str()).map(String::from));
+        let run = reply.result().ok().and_then(|sample| run_of(sample.key_expr().as_str()).map(String::from));
         if runs.len() < RUNS_MAX {
             runs.extend(run.filter(|run| check_ident("run", run).is_ok()));
         }
@@ -90,6 +110,7 @@ pub async fn live_runs(bus: &Bus, timeout: Duration) -> Result<Vec<String>, BusE
 /// Live actors, by liveliness token.
 pub struct Alive {
     view: AliveView,
+    run: String,
     kept_routes: KeptRoutes,
     _subscriber: Subscriber<()>,
     _token: LivelinessToken,
@@ -102,12 +123,12 @@ impl Alive {
         let subscriber = bus
             .session
             .liveliness()
-            .declare_subscriber(keys::actor(run, "*"))
+            .declare_subscriber(actor_key(run, "*"))
             .history(true)
             .callback({
                 let AliveView { actors, changes } = view.clone();
                 move |sample: Sample| {
-                    let actor = keys::last_part(sample.key_expr().as_str());
+                    let actor = last_part(sample.key_expr().as_str());
                     let mut actors = actors.lock().expect("no holder of this lock panics");
                     match sample.kind() {
                         SampleKind::Put if actors.len() < ACTORS_MAX && check_ident("actor", actor).is_ok() => {
@@ -124,11 +145,11 @@ impl Alive {
         let token = bus
             .session
             .liveliness()
-            .declare_token(keys::learner(run))
+            .declare_token(learner_key(run))
             .wait()
             .map_err(BusError::flow("declaring the learner's token"))?;
-        let kept_routes = KeptRoutes::new(&bus.session, run);
-        Ok(Self { view, kept_routes, _subscriber: subscriber, _token: token })
+        let kept_routes = KeptRoutes::new(&bus.session);
+        Ok(Self { view, run: run.to_string(), kept_routes, _subscriber: subscriber, _token: token })
     }
 
     /// Returns a view for another thread.
@@ -139,7 +160,7 @@ impl Alive {
     /// Returns the names of the live actors.
     pub fn actors(&mut self) -> BTreeSet<String> {
         let actors = self.view.actors();
-        self.kept_routes.set_actors(&actors);
+        self.kept_routes.set_actors(&actors, |actor| stats_key(&self.run, actor));
         actors
     }
 

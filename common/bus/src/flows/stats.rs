@@ -1,4 +1,4 @@
-//! Statistics of actors, as the learner receives them.
+//! Statistics of actors.
 
 use std::{
     collections::HashMap,
@@ -8,8 +8,16 @@ use std::{
 use treadmill_proto::{ActorStats, limits::STATS_BYTES_MAX};
 use zenoh::{Wait, pubsub::Subscriber, sample::Sample};
 
-use super::presence::AliveView;
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
+use super::{
+    presence::{AliveView, stats_key},
+    shared::{last_part, publisher},
+};
+use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
+
+/// Returns a function that publishes an actor's statistics. The bus may drop them.
+pub fn publish_stats(bus: &Bus, run: &str, actor: &str) -> Result<impl Fn(Vec<u8>) + Send + Sync + use<>, BusError> {
+    publisher(bus, stats_key(run, actor))
+}
 
 /// Newest statistics of each live actor.
 pub struct StatsFeed {
@@ -27,7 +35,7 @@ impl StatsFeed {
         let arrived = Arc::new(Mutex::new(HashMap::new()));
         let subscriber = bus
             .session
-            .declare_subscriber(keys::stats(run, "*"))
+            .declare_subscriber(stats_key(run, "*"))
             .callback({
                 let (alive, arrived) = (alive.clone(), arrived.clone());
                 move |sample: Sample| keep_newest(&sample, &alive, &arrived)
@@ -65,7 +73,7 @@ impl StatsFeed {
 
 /// Keeps the sample as its actor's newest. Runs in the bus's receiving thread.
 fn keep_newest(sample: &Sample, alive: &AliveView, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
-    let Some(actor) = keys::stats_actor(sample.key_expr().as_str()) else { return };
+    let Some(actor) = sample.key_expr().as_str().strip_suffix("/stats").map(last_part) else { return };
     // Only live actors, whose number is limited: other names cannot fill the map.
     if sample.payload().len() > STATS_BYTES_MAX || !alive.has(actor) {
         return;

@@ -11,13 +11,16 @@ use zenoh::{
     query::{ConsolidationMode, Query},
 };
 
-use super::{next_valid, reply, start_thread};
-use crate::{
-    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
-};
+use super::shared::{last_part, next_valid, reply, serve, start_thread};
+use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
 const QUEUE: usize = 64;
+
+/// Returns `treadmill/{run}/tasks/{actor}`.
+fn key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/tasks/{actor}")
+}
 
 /// Returns why a task cannot be this run's, or `None` if it can.
 pub type Objection = Box<dyn Fn(&Task) -> Option<String> + Send + Sync>;
@@ -34,9 +37,9 @@ impl TaskServer {
         let (accept, accepted) = sync_channel(1);
         start_thread("task-server", {
             let run = run.to_string();
-            move || serve(requests, &run, known, &objection, &accept)
+            move || answer_all(requests, &run, known, &objection, &accept)
         })?;
-        declare_queryable(&bus.session, keys::tasks(run, "*"), move |query| {
+        serve(bus, key(run, "*"), "taking registrations of tasks", move |query| {
             let bytes = query.payload().map_or(0, ZBytes::len);
             // Checked here, so that a large registration takes no place in the queue.
             if bytes > TASK_BYTES_MAX {
@@ -45,8 +48,7 @@ impl TaskServer {
                 return reply(&query, refusal.to_bytes(), "task receipt");
             }
             drop(sender.try_send(query));
-        })
-        .map_err(BusError::flow("taking registrations of tasks"))?;
+        })?;
         Ok(Self { accepted })
     }
 
@@ -56,7 +58,7 @@ impl TaskServer {
     }
 }
 
-fn serve(
+fn answer_all(
     requests: Receiver<Query>,
     run: &str,
     mut known: Option<Task>,
@@ -81,7 +83,7 @@ fn register(
     objection: &Objection,
     refusals: &RateLimitedLog,
 ) -> TaskReceipt {
-    let actor = keys::last_part(query.key_expr().as_str());
+    let actor = last_part(query.key_expr().as_str());
     let refusal = match read(query, run, actor) {
         Err(error) => Some(error.to_string()),
         Ok(task) => match known.as_ref() {
@@ -122,7 +124,7 @@ pub async fn register_task(
         .map_err(|error| BusError::Flow { what: "registering a task".to_string(), why: error.to_string() })?;
     let replies = bus
         .session
-        .get(keys::tasks(&registration.run, &registration.actor))
+        .get(key(&registration.run, &registration.actor))
         .payload(payload)
         .timeout(timeout)
         .consolidation(ConsolidationMode::None)

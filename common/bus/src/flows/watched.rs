@@ -7,7 +7,7 @@ use std::sync::{
 
 use zenoh::{Wait, matching::MatchingListener, pubsub::Publisher};
 
-use crate::BusError;
+use crate::error::BusError;
 
 /// Shared flag: whether a subscriber exists.
 #[derive(Clone, Debug, Default)]
@@ -15,7 +15,10 @@ pub struct Watched(Arc<AtomicBool>);
 
 impl Watched {
     /// Returns the flag of `publisher`, and the listener that sets it; `what` names the operation in errors.
-    pub(super) fn follow(publisher: &Publisher, what: &str) -> Result<(Self, MatchingListener<()>), BusError> {
+    pub(in crate::flows) fn follow(
+        publisher: &Publisher,
+        what: &str,
+    ) -> Result<(Self, MatchingListener<()>), BusError> {
         let watched = Self::default();
         let listener = publisher
             .matching_listener()

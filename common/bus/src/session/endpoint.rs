@@ -2,7 +2,7 @@
 
 use std::net::{IpAddr, TcpListener};
 
-use crate::BusError;
+use crate::{error::BusError, workarounds::free_port::without_options};
 
 /// Refuses a malformed endpoint, plain text beyond this machine unless `insecure` allows it, and TLS without certificates.
 pub fn check(endpoint: &str, insecure: bool, has_certificates: bool) -> Result<(), BusError> {
@@ -45,11 +45,6 @@ pub fn check_encrypted(endpoint: &str) -> Result<(), BusError> {
 fn is_loopback(host: &str) -> bool {
     let bare = host.trim_start_matches('[').trim_end_matches(']');
     bare == "localhost" || bare.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
-}
-
-/// Splits Zenoh's options, from `?` or `#` on, off an endpoint.
-pub(crate) fn without_options(endpoint: &str) -> (&str, &str) {
-    endpoint.split_at(endpoint.find(['?', '#']).unwrap_or(endpoint.len()))
 }
 
 /// Checks that the port of an endpoint is free, so that the error names it.

@@ -5,9 +5,8 @@
 //! requester asks again. A request that a router passes on waits for space again; not one that a learner with one
 //! thread for all links passes on, as that thread would wait for itself.
 
-pub mod access_rules;
+pub(crate) mod access_rules;
 pub mod endpoint;
-pub mod keys;
 
 use std::path::PathBuf;
 
@@ -15,8 +14,7 @@ use serde_json::json;
 use zenoh::{Config, Session, Wait};
 
 use crate::{
-    BusError,
-    error::in_words,
+    error::{BusError, in_words},
     workarounds::{
         close, discovery, free_port::with_free_port, linger, open_files::check_open_files, redial_pause, threads,
     },
@@ -73,8 +71,24 @@ impl BusOptions {
         check_open_files()
     }
 
+    /// Returns whether any link is encrypted. With `discover` no endpoint is given, but there are certificates.
+    pub fn is_encrypted(&self) -> bool {
+        let mut endpoints = self.listen.iter().chain(&self.connect);
+        self.credentials.is_some() || endpoints.any(|endpoint| endpoint.starts_with("tls/"))
+    }
+
+    /// Checks an endpoint from a scouting reply, which any host may send. The rules for the user's endpoints apply; with
+    /// certificates, plain text is refused, too.
+    fn check_discovered(&self, locator: &str) -> Result<(), BusError> {
+        if self.credentials.is_some() && !locator.starts_with("tls/") {
+            let why = "it is not encrypted, and --tls was given".to_string();
+            return Err(BusError::Endpoint { endpoint: locator.to_string(), why });
+        }
+        self.check_endpoint(locator)
+    }
+
     /// Checks one endpoint.
-    pub(crate) fn check_endpoint(&self, given: &str) -> Result<(), BusError> {
+    fn check_endpoint(&self, given: &str) -> Result<(), BusError> {
         // The user's own Zenoh configuration may bring certificates.
         endpoint::check(given, self.insecure, self.credentials.is_some() || self.zenoh_config.is_some())
     }
@@ -106,7 +120,10 @@ impl Bus {
             insert(&mut settings, "access_control", access_rules::access())?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
-        let rule = |flow: &str, control: &str| json!({"messages": ["query"], "flows": [flow], "overwrite": {"congestion_control": control}});
+        let rule = |flow: &str, control: &str| {
+            let overwrite = json!({"congestion_control": control});
+            json!({"messages": ["query"], "flows": [flow], "overwrite": overwrite})
+        };
         let mut rules = vec![rule("ingress", "drop")];
         if !threads::is_one() {
             rules.push(rule("egress", "block"));
@@ -137,7 +154,7 @@ impl Bus {
         insert(&mut settings, "mode", json!("client"))?;
         let mut endpoints = options.connect.clone();
         if options.discover {
-            endpoints.extend(discovery::find(&settings, options)?);
+            endpoints.extend(discovery::find(&settings, |locator| options.check_discovered(locator))?);
         }
         dial(&mut settings, &endpoints)?;
         Self::open(settings)
@@ -219,4 +236,22 @@ fn insert(settings: &mut Config, key: &str, value: serde_json::Value) -> Result<
     settings
         .insert_json5(key, &value.to_string())
         .map_err(|error| BusError::Config { what: format!("bus setting {key}"), why: in_words(&error) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::role::Role;
+
+    #[test]
+    fn with_certificates_no_plain_text_endpoint_is_dialled() {
+        let insecure = BusOptions { insecure: true, ..BusOptions::default() };
+        assert!(insecure.check_discovered("tcp/10.0.0.1:7447").is_ok());
+        assert!(BusOptions::default().check_discovered("tcp/10.0.0.1:7447").is_err());
+        let credentials = Credentials { folder: "certs".into(), role: Role::Actor };
+        let with_tls = BusOptions { insecure: true, credentials: Some(credentials), ..BusOptions::default() };
+        let why = with_tls.check_discovered("tcp/10.0.0.1:7447").unwrap_err().to_string();
+        assert!(why.contains("tcp/10.0.0.1:7447") && why.contains("--tls"), "{why}");
+        assert!(with_tls.check_discovered("tls/10.0.0.1:7447").is_ok());
+    }
 }

@@ -2,13 +2,13 @@
 //!
 //! Zenoh's own discovery does not dial an endpoint again after its link broke. Endpoints found here are configured like
 //! those that the user names, and Zenoh redials them. No upstream issue is known. Delete when a client redials discovered
-//! endpoints; [`check_discovered`] must then be applied to them elsewhere.
+//! endpoints; the session must then check them elsewhere.
 
 use std::time::{Duration, Instant};
 
 use zenoh::{Config, Wait, config::WhatAmI};
 
-use crate::{BusError, BusOptions};
+use crate::error::BusError;
 
 /// Duration of one scouting round, in which Zenoh repeats the request.
 const ROUND: Duration = Duration::from_secs(3);
@@ -18,8 +18,8 @@ const FURTHER_REPLIES: Duration = Duration::from_millis(300);
 /// forgotten after a round with as many.
 const ENDPOINTS_MAX: usize = 64;
 
-/// Scouts until an acceptable endpoint is found. Returns all that were found in that round.
-pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String>, BusError> {
+/// Scouts until an endpoint is found that passes `check`. Returns all that were found in that round.
+pub(crate) fn find(settings: &Config, check: impl Fn(&str) -> Result<(), BusError>) -> Result<Vec<String>, BusError> {
     let mut refused: Vec<String> = Vec::new();
     loop {
         let replies = zenoh::scout(WhatAmI::Router, settings.clone())
@@ -35,7 +35,7 @@ pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String
                 if is_known || found.len() == ENDPOINTS_MAX || refused.len() == ENDPOINTS_MAX {
                     continue;
                 }
-                match check_discovered(&locator, options) {
+                match check(&locator) {
                     Ok(()) => {
                         tracing::info!(endpoint = %locator, "endpoint found");
                         found.push(locator);
@@ -54,33 +54,5 @@ pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String
         if refused.len() == ENDPOINTS_MAX {
             refused.clear();
         }
-    }
-}
-
-/// Checks an endpoint from a scouting reply, which any host may send. The rules for the user's endpoints apply; with
-/// certificates, plain text is refused, too.
-fn check_discovered(locator: &str, options: &BusOptions) -> Result<(), BusError> {
-    if options.credentials.is_some() && !locator.starts_with("tls/") {
-        let why = "it is not encrypted, and --tls was given".to_string();
-        return Err(BusError::Endpoint { endpoint: locator.to_string(), why });
-    }
-    options.check_endpoint(locator)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Credentials, Role};
-
-    #[test]
-    fn with_certificates_no_plain_text_endpoint_is_dialled() {
-        let insecure = BusOptions { insecure: true, ..BusOptions::default() };
-        assert!(check_discovered("tcp/10.0.0.1:7447", &insecure).is_ok());
-        assert!(check_discovered("tcp/10.0.0.1:7447", &BusOptions::default()).is_err());
-        let credentials = Credentials { folder: "certs".into(), role: Role::Actor };
-        let with_tls = BusOptions { insecure: true, credentials: Some(credentials), ..BusOptions::default() };
-        let why = check_discovered("tcp/10.0.0.1:7447", &with_tls).unwrap_err().to_string();
-        assert!(why.contains("tcp/10.0.0.1:7447") && why.contains("--tls"), "{why}");
-        assert!(check_discovered("tls/10.0.0.1:7447", &with_tls).is_ok());
     }
 }

@@ -5,7 +5,7 @@
 
 use std::net::TcpListener;
 
-use crate::{BusError, session::endpoint::without_options};
+use crate::error::BusError;
 
 /// Replaces port 0 of an endpoint with a port that is free now; returns other endpoints unchanged.
 pub(crate) fn with_free_port(endpoint: &str) -> Result<String, BusError> {
@@ -19,4 +19,9 @@ pub(crate) fn with_free_port(endpoint: &str) -> Result<String, BusError> {
         .map_err(|error| BusError::Endpoint { endpoint: endpoint.to_string(), why: error.to_string() })?
         .port();
     Ok(format!("{prefix}:{port}{options}"))
+}
+
+/// Splits Zenoh's options, from `?` or `#` on, off an endpoint.
+pub(crate) fn without_options(endpoint: &str) -> (&str, &str) {
+    endpoint.split_at(endpoint.find(['?', '#']).unwrap_or(endpoint.len()))
 }

@@ -10,23 +10,20 @@ use std::collections::{BTreeSet, HashMap};
 
 use zenoh::{Session, Wait, key_expr::KeyExpr};
 
-use crate::keys;
-
 /// Declared keys of the live actors' statistics.
 pub(crate) struct KeptRoutes {
     session: Session,
-    run: String,
     declared: HashMap<String, KeyExpr<'static>>,
 }
 
 impl KeptRoutes {
     /// Declares nothing yet.
-    pub(crate) fn new(session: &Session, run: &str) -> Self {
-        Self { session: session.clone(), run: run.to_string(), declared: HashMap::new() }
+    pub(crate) fn new(session: &Session) -> Self {
+        Self { session: session.clone(), declared: HashMap::new() }
     }
 
-    /// Declares the keys of new actors, and undeclares those of actors that are gone. Must not be called in a callback.
-    pub(crate) fn set_actors(&mut self, actors: &BTreeSet<String>) {
+    /// Declares the `key` of new actors, and undeclares those of actors that are gone. Must not be called in a callback.
+    pub(crate) fn set_actors(&mut self, actors: &BTreeSet<String>, key: impl Fn(&str) -> String) {
         let gone: Vec<String> = self.declared.keys().filter(|actor| !actors.contains(*actor)).cloned().collect();
         for key in gone.iter().filter_map(|actor| self.declared.remove(actor)) {
             if let Err(error) = self.session.undeclare(key).wait() {
@@ -37,7 +34,7 @@ impl KeptRoutes {
             if self.declared.contains_key(actor) {
                 continue;
             }
-            match self.session.declare_keyexpr(keys::stats(&self.run, actor)).wait() {
+            match self.session.declare_keyexpr(key(actor)).wait() {
                 Ok(key) => drop(self.declared.insert(actor.clone(), key)),
                 Err(error) => tracing::debug!(%actor, %error, "key not declared"),
             }

@@ -3,7 +3,7 @@
 //! Zenoh's threads panic if they cannot open a file, and callers that wait for them hang. No upstream issue is known;
 //! raising the limit is eclipse-zenoh/zenoh#2673. Delete when opening a session returns an error instead.
 
-use crate::BusError;
+use crate::error::BusError;
 
 /// Open files below which Zenoh's threads panic; 48 were enough for a run with two actors.
 const OPEN_FILES_MIN: u64 = 64;

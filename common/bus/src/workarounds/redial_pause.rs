@@ -17,7 +17,7 @@ use std::{
 
 use zenoh::{Session, Wait, sample::SampleKind};
 
-use crate::BusError;
+use crate::error::BusError;
 
 /// Pause after a link broke: some computations of the neighbour's trees.
 const PAUSE: Duration = Duration::from_millis(400);

@@ -8,7 +8,7 @@
 //! Delete `ONE` when Zenoh locks the connection. `MANY` is no workaround: fragments are decoded on the reading threads, so
 //! learners and routers read unencrypted links with more threads than Zenoh's default.
 
-use crate::{BusOptions, Role};
+use crate::role::Role;
 
 /// Zenoh's environment variable for its threads.
 pub const VARIABLE: &str = "ZENOH_RUNTIME";
@@ -17,12 +17,10 @@ const ONE: &str = "(rx:(handover:tx))";
 /// Sixteen threads read links.
 const MANY: &str = "(rx:(worker_threads:16))";
 
-/// Returns the name and value of the environment variable to set before any thread starts. `None` keeps Zenoh's default, or
+/// Returns name and value of the environment variable to set before any thread starts. `None` keeps Zenoh's default, or
 /// what the user has set.
-pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'static str)> {
-    // With --discover no endpoint is given, but there are certificates.
-    let has_tls_endpoint = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
-    let value = match (has_tls_endpoint || options.credentials.is_some(), role) {
+pub fn wanted(is_encrypted: bool, role: Role) -> Option<(&'static str, &'static str)> {
+    let value = match (is_encrypted, role) {
         (true, Role::Learner | Role::Standby | Role::Actor | Role::Evaluator | Role::Observer | Role::Operator) => ONE,
         (_, Role::Learner | Role::Standby | Role::Router) => MANY,
         (false, _) => return None,
@@ -38,19 +36,14 @@ pub(crate) fn is_one() -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Credentials;
 
     #[test]
     fn encrypted_links_use_one_thread_except_in_routers() {
-        let options = |endpoint: &str| BusOptions { connect: vec![endpoint.to_string()], ..BusOptions::default() };
-        let value = |endpoint, role| wanted(&options(endpoint), role).map(|(_, value)| value);
-        assert_eq!(value("tls/localhost:1", Role::Actor), Some(ONE));
-        assert_eq!(value("tls/localhost:1", Role::Learner), Some(ONE));
-        assert_eq!(value("tls/localhost:1", Role::Router), Some(MANY));
-        assert_eq!(value("tcp/localhost:1", Role::Learner), Some(MANY));
-        assert_eq!(value("tcp/localhost:1", Role::Actor), None);
-        let credentials = Credentials { folder: "certs".into(), role: Role::Actor };
-        let searching = BusOptions { discover: true, credentials: Some(credentials), ..BusOptions::default() };
-        assert_eq!(wanted(&searching, Role::Actor), Some((VARIABLE, ONE)));
+        let value = |is_encrypted, role| wanted(is_encrypted, role).map(|(_, value)| value);
+        assert_eq!(value(true, Role::Actor), Some(ONE));
+        assert_eq!(value(true, Role::Learner), Some(ONE));
+        assert_eq!(value(true, Role::Router), Some(MANY));
+        assert_eq!(value(false, Role::Learner), Some(MANY));
+        assert_eq!(value(false, Role::Actor), None);
     }
 }

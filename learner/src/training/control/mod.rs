@@ -15,7 +15,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::{AliveView, Bus, BusError, ControlServer, PendingRequest, StatsFeed};
+use treadmill_bus::{
+    Bus, BusError,
+    learner::{AliveView, ControlServer, PendingRequest, StatsFeed},
+};
 use treadmill_proto::{Command, ControlReply, RunStatus};
 use treadmill_runtime::machine;
 

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::{AliveView, StatsFeed};
+use treadmill_bus::learner::{AliveView, StatsFeed};
 use treadmill_proto::{ActorStats, ActorStatus, wire::PolicyVersion};
 
 /// An actor that has left stays in the status for this long.

@@ -6,7 +6,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_bus::ReceivedFragment;
+use treadmill_bus::learner::ReceivedFragment;
 use treadmill_learner::intake::FragmentSource;
 use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 

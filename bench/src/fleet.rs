@@ -1,33 +1,6 @@
 //! Played fleet: a real learner with real updates among actors that do not simulate.
-//!
-//! A played actor behaves on the bus as a real one does, by the same delivery. It does not simulate: a fragment is
-//! ready when a real actor of the given rate would have finished it.
-//!
-//! # Layout
-//! - Here: flags and the result.
-//! - [`actors`]: process of many played actors. [`actor`]: one of them.
-//! - [`pace`]: time that simulation takes. [`policy`]: transitions under each policy version. [`counts`]: what became
-//!   of them.
-//! - [`processes`]: learner and routers as child processes, and their use of the machine.
-//! - [`run_metrics`]: follows the learner's metrics.
-//! - [`measure`]: starts the processes, sets the rates and marks the measured window.
-//! - [`figures`]: figures of the measured window.
 
-mod actor;
-pub mod actors;
-mod counts;
-mod figures;
-mod measure;
-mod pace;
-mod policy;
-mod processes;
-mod run_metrics;
-
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    str::FromStr,
-};
+use std::{fs, path::PathBuf, str::FromStr};
 
 use anyhow::Context;
 use clap::Args;
@@ -35,11 +8,12 @@ use serde_json::json;
 use treadmill_rl::launch::{exit_code::Usage, output::say_result};
 use treadmill_runtime::machine;
 
-use self::measure::{MeasurementPlan, PlayedRate};
-use crate::helper;
+use crate::{
+    RUN,
+    measurement::{MeasurementPlan, PlayedRate},
+    process::{certify, flags},
+};
 
-/// Name of the run on the bus.
-pub const RUN: &str = "fleet";
 /// Least rate of an actor (environment steps per second).
 const RATE_MIN: f64 = 0.01;
 const RATE_MAX: f64 = 1e9;
@@ -71,18 +45,9 @@ pub struct FleetArgs {
     /// Encrypt every link, with temporary certificates.
     #[arg(long)]
     tls: bool,
-    /// Processes that the actors are spread over.
-    #[arg(long, value_name = "P", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
-    processes: u32,
-    /// Duration of the measurement in seconds; it lasts for at least five updates.
+    /// Duration of the measurement in seconds; it lasts for at least five updates. A quarter of it passes before.
     #[arg(long, value_name = "S", default_value_t = 20.0)]
     seconds: f64,
-    /// Time before the measurement in seconds, for at least three updates.
-    #[arg(long, value_name = "S", default_value_t = 5.0)]
-    warmup_s: f64,
-    /// Duration of the measurement of the update's own speed in seconds, with --rate auto.
-    #[arg(long, value_name = "S", default_value_t = 5.0)]
-    calibrate_s: f64,
     /// Preset of the learner.
     #[arg(long, value_name = "NAME", default_value = "walk")]
     preset: String,
@@ -123,39 +88,43 @@ impl FromStr for RateChoice {
 pub fn run(args: &FleetArgs) -> anyhow::Result<()> {
     check(args)?;
     let temporary = tempfile::tempdir().context("cannot create a temporary folder")?;
-    let folder = args.keep.as_deref().unwrap_or(temporary.path());
+    let folder = args.keep.clone().unwrap_or_else(|| temporary.path().to_path_buf());
     if folder.join(RUN).exists() {
         let why = format!("--keep {}: it has the run of another measurement; name another folder", folder.display());
         return Err(Usage(why).into());
     }
-    fs::create_dir_all(folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
-    let mut result = plan(args, folder, temporary.path())?.measure()?;
-    let more = json!({
-        "mode": args.mode,
-        "routers": args.routers,
-        "transport": if args.tls { "mutual tls" } else { "tcp" },
-        "settings": args.set.join(" "),
-        "cores": machine::cores(),
-        "cpu": machine::cpu_name(),
-        "workload": format!(
-            "learner of preset {} among {} played actors of {} environments",
-            args.preset, args.actors, args.envs
-        ),
-        "checksum": format!("{} updates", result["updates"]),
-    });
-    let fields = result.as_object_mut().context("figures are an object")?;
-    fields.extend(more.as_object().cloned().unwrap_or_default());
+    fs::create_dir_all(&folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
+    let mut learner = flags(&[("--preset", args.preset.clone()), ("--set", format!("learner.mode={}", args.mode))]);
+    learner.extend(args.set.iter().flat_map(|pair| flags(&[("--set", pair.clone())])));
+    let plan = MeasurementPlan {
+        actors: args.actors as usize,
+        envs: args.envs,
+        rate: match args.rate {
+            RateChoice::Auto => PlayedRate::Load(args.load),
+            RateChoice::Fixed(rate) => PlayedRate::Fixed(rate),
+        },
+        slow: args.slow.clone(),
+        routers: args.routers as usize,
+        seconds: args.seconds,
+        learner,
+        listen: if args.tls { "tls/127.0.0.1:0" } else { "tcp/127.0.0.1:0" },
+        network: if args.tls { certify(&temporary.path().join("certs"))?.into() } else { Vec::new() },
+        folder,
+    };
+    let mut result = plan.measure()?;
+    result["mode"] = json!(args.mode);
+    result["transport"] = json!(if args.tls { "mutual tls" } else { "tcp" });
+    result["settings"] = json!(args.set.join(" "));
+    result["cores"] = json!(machine::cores());
+    result["cpu"] = json!(machine::cpu_name());
     say_result(&result, args.json);
     Ok(())
 }
 
 /// Refuses numbers out of range.
 fn check(args: &FleetArgs) -> Result<(), Usage> {
-    let durations = [("--seconds", args.seconds), ("--warmup-s", args.warmup_s), ("--calibrate-s", args.calibrate_s)];
-    for (flag, seconds) in durations {
-        if !(0.0..=3600.0).contains(&seconds) {
-            return Err(Usage(format!("{flag} is {seconds}; allowed: 0 to 3600")));
-        }
+    if !(0.0..=3600.0).contains(&args.seconds) {
+        return Err(Usage(format!("--seconds is {}; allowed: 0 to 3600", args.seconds)));
     }
     if !(args.load > 0.0 && args.load <= 100.0) {
         return Err(Usage(format!("--load is {}; allowed: above 0, at most 100", args.load)));
@@ -170,33 +139,4 @@ fn check(args: &FleetArgs) -> Result<(), Usage> {
         return Err(Usage(format!("--slow is given {} times for {} actors", args.slow.len(), args.actors)));
     }
     Ok(())
-}
-
-fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<MeasurementPlan> {
-    let mut network = Vec::new();
-    if args.tls {
-        network.extend(helper::certify(&temporary.join("certs"))?);
-    }
-    let mut learner = vec!["--preset".to_string(), args.preset.clone()];
-    for pair in std::iter::once(&format!("learner.mode={}", args.mode)).chain(&args.set) {
-        learner.extend(["--set".to_string(), pair.clone()]);
-    }
-    Ok(MeasurementPlan {
-        actors: args.actors as usize,
-        envs: args.envs,
-        rate: match args.rate {
-            RateChoice::Auto => PlayedRate::Load(args.load),
-            RateChoice::Fixed(rate) => PlayedRate::Fixed(rate),
-        },
-        slow: args.slow.clone(),
-        routers: args.routers as usize,
-        processes: args.processes as usize,
-        calibrate_s: args.calibrate_s,
-        warmup_s: args.warmup_s,
-        seconds: args.seconds,
-        learner,
-        listen: if args.tls { "tls/127.0.0.1:0" } else { "tcp/127.0.0.1:0" },
-        network,
-        folder: folder.to_path_buf(),
-    })
 }

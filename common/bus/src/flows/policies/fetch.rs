@@ -12,8 +12,12 @@ use zenoh::{
     query::{ConsolidationMode, Reply},
 };
 
-use super::{next_valid, presence::live_runs};
-use crate::{Bus, BusError, keys};
+use super::pieces;
+use crate::{
+    error::BusError,
+    flows::{presence::live_runs, shared::next_valid},
+    session::Bus,
+};
 
 /// Pieces that a requester asks for at once. The bus has space for them on an idle link, however slow it is.
 const WINDOW: usize = 8;
@@ -60,31 +64,12 @@ pub async fn fetch_newer_policy(
 ) -> Result<Option<FetchedPolicy>, BusError> {
     let nodes: Vec<String> = bus.session.info().routers_zid().wait().map(|node| node.to_string()).collect();
     for node in nodes {
-        let fetched = fetch_pieces(bus, keys::policy_pieces_of(run, &node), request, timeout).await?;
+        let fetched = fetch_pieces(bus, pieces::key_of(run, &node), request, timeout).await?;
         if fetched.is_some() {
             return Ok(fetched);
         }
     }
-    ask_learner(bus, run, request, timeout).await
-}
-
-/// Asks the learner; an older one knows only requests for the whole bundle.
-async fn ask_learner(
-    bus: &Bus,
-    run: &str,
-    request: &PolicyRequest,
-    timeout: Duration,
-) -> Result<Option<FetchedPolicy>, BusError> {
-    let fetched = fetch_pieces(bus, keys::policy_pieces(run), request, timeout).await?;
-    if fetched.is_some() {
-        return Ok(fetched);
-    }
-    let replies = get(bus, keys::policy_latest(run), Vec::new(), timeout)?;
-    let whole = next_valid(&replies, "policy bundle", PolicyBundle::decode).await;
-    Ok(whole.map(|bundle| match request.known.is_some_and(|known| known.names_same_policy(bundle.version)) {
-        true => FetchedPolicy::Unchanged,
-        false => FetchedPolicy::Newer(Box::new(bundle)),
-    }))
+    fetch_pieces(bus, pieces::key(run), request, timeout).await
 }
 
 /// Fetches all pieces from the server of `key`. `None` if it does not answer in time.

@@ -18,13 +18,16 @@ use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVer
 use zenoh::{Wait, key_expr::KeyExpr, pubsub::Subscriber};
 
 use super::{
-    policies::declare,
-    policy_fetch::{FetchedPolicy, fetch_pieces},
-    policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
-    presence::is_learner_present,
+    announcements,
+    fetch::{FetchedPolicy, fetch_pieces},
+    pieces::{self, ActorPolicy, PieceReply, PieceServer, ServedPolicies},
     silences::{Heard, Silences},
 };
-use crate::{Bus, BusError, keys};
+use crate::{
+    error::BusError,
+    flows::{presence::is_learner_present, shared::serve},
+    session::Bus,
+};
 
 /// Runs whose policies are cached. Requests for further runs get no reply, and actors ask the learner.
 const RUNS_MAX: usize = 16;
@@ -74,7 +77,7 @@ impl PolicyCache {
     pub fn open(bus: &Bus) -> Result<Self, BusError> {
         let (sender, events) = mpsc::channel(QUEUE);
         let missed = Arc::<AtomicBool>::default();
-        declare(bus, keys::policy_pieces_of("*", &bus.session.zid().to_string()), {
+        serve(bus, pieces::key_of("*", &bus.session.zid().to_string()), "serving policies", {
             let sender = sender.clone();
             move |query| {
                 let Some(run) = run_of(query.key_expr()) else { return };
@@ -85,7 +88,7 @@ impl PolicyCache {
         })?;
         let subscriber = bus
             .session
-            .declare_subscriber(keys::policy_version("*"))
+            .declare_subscriber(announcements::key("*"))
             .callback({
                 let missed = missed.clone();
                 move |sample| {
@@ -143,7 +146,7 @@ impl PolicyCache {
                 let bus = self.bus.clone();
                 fetches.spawn(async move {
                     tokio::time::sleep(delay).await;
-                    let fetched = fetch_pieces(&bus, keys::policy_pieces(&run), &request, FETCH_TIMEOUT).await;
+                    let fetched = fetch_pieces(&bus, pieces::key(&run), &request, FETCH_TIMEOUT).await;
                     let fetched = fetched.unwrap_or_else(|error| {
                         tracing::warn!(run, %error, "policy not fetched");
                         None
@@ -392,5 +395,5 @@ impl<W> CachedRun<W> {
 }
 
 #[cfg(test)]
-#[path = "policy_cache_tests.rs"]
+#[path = "cache_tests.rs"]
 mod tests;

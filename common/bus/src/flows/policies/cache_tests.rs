@@ -1,6 +1,6 @@
 //! The cache without a bus: requests are numbers.
 
-use super::{super::policy_pieces::tests::bundle, *};
+use super::{super::pieces::tests::bundle, *};
 
 const OLD: PolicyVersion = PolicyVersion::new(7, 3);
 const NEW: PolicyVersion = PolicyVersion::new(7, 4);

@@ -17,12 +17,18 @@ use zenoh::{
     query::{ConsolidationMode, Query},
 };
 
-use super::{next_valid, received::incarnation_of, reply, start_thread};
+use super::{
+    copies::RolloutCopies,
+    received::{ReceivedFragment, incarnation_of},
+};
 use crate::{
-    Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog},
-    keys,
-    workarounds::kept_queryables::declare_queryable,
+    error::BusError,
+    flows::{
+        shared::{last_part, next_valid, reply, serve, start_thread},
+        watched::Watched,
+    },
+    session::Bus,
 };
 
 /// Bytes of fragments that may wait for the learner. Half-precision observations take twice their size in memory.
@@ -35,6 +41,11 @@ const RECEIPTS_QUEUE: usize = 8192;
 const LAST_RECEIPTS_TIMEOUT: Duration = Duration::from_secs(1);
 /// Stands for every invalid name. No actor can have it.
 const INVALID_NAME: &str = "?";
+
+/// Returns `treadmill/{run}/rollouts/{actor}`.
+fn key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/rollouts/{actor}")
+}
 
 /// Received fragment that waits for its receipt. If it is dropped without one, the sender gets no reply and sends again.
 pub struct IncomingFragment {
@@ -121,8 +132,7 @@ impl RolloutIntake {
             rejection_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
         };
-        declare_queryable(&bus.session, keys::rollouts(run, "*"), move |query| receiver.receive(query))
-            .map_err(BusError::flow("taking rollouts"))?;
+        serve(bus, key(run, "*"), "taking rollouts", move |query| receiver.receive(query))?;
         Ok(Self { queue, receipts, shared })
     }
 
@@ -164,9 +174,9 @@ impl RolloutReceiver {
     fn receive(&self, mut query: Query) {
         // Taken out of the query, which lives until it is answered, so that the bus's buffers are free at once.
         let payload = query.payload_mut().map(std::mem::take).unwrap_or_default();
-        let key = query.key_expr().clone();
-        let named = check_ident("actor", keys::last_part(key.as_str()));
-        let actor = if named.is_ok() { keys::last_part(key.as_str()) } else { INVALID_NAME };
+        let sent_on = query.key_expr().clone();
+        let named = check_ident("actor", last_part(sent_on.as_str()));
+        let actor = if named.is_ok() { last_part(sent_on.as_str()) } else { INVALID_NAME };
         let size = payload.len();
         let permit = match self.admission.admit(actor, incarnation_of(&payload), size, Instant::now()) {
             Ok(permit) => permit,
@@ -281,7 +291,7 @@ pub async fn submit(
 ) -> Result<Option<Receipt>, BusError> {
     let replies = bus
         .session
-        .get(keys::rollouts(run, actor))
+        .get(key(run, actor))
         .payload(fragment)
         .timeout(timeout)
         .consolidation(ConsolidationMode::None)

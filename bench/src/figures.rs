@@ -5,13 +5,9 @@ use std::{collections::HashMap, time::Instant};
 use anyhow::Context;
 use serde_json::{Value, json};
 
-use super::{
-    counts::{Tally, Times},
-    run_metrics::LoggedUpdate,
-};
 use crate::{
-    load_step::{ms, quantile, share},
-    rounded,
+    played::counts::{Tally, Times},
+    run_metrics::LoggedUpdate,
 };
 
 /// Counts right after an update.
@@ -23,8 +19,6 @@ pub struct Mark {
     pub fleet_cpu_s: f64,
     pub learner_cpu_s: f64,
     pub routers_cpu_s: f64,
-    /// Processor time of the training thread.
-    pub training_thread_s: Option<f64>,
     pub sent_bytes: Option<HashMap<String, u64>>,
 }
 
@@ -32,10 +26,7 @@ pub struct Mark {
 pub struct Figures<'a> {
     pub rates: &'a [f64],
     pub envs: u32,
-    /// Speed of the update before the measurement, if it was measured.
-    pub calibrated: Option<f64>,
     pub joined_s: f64,
-    pub alive_s: Option<f64>,
     pub bundle_bytes: f64,
     pub begin: Mark,
     pub end: Mark,
@@ -79,7 +70,6 @@ impl Figures<'_> {
         let of_all = |of: fn(f64, f64) -> f64, start: f64, tag: &str| {
             window.iter().map(|update| update.value(tag)).fold(start, of)
         };
-        let batches = window.iter().map(|update| update.value("train/batch"));
         let weighted: f64 = window.iter().map(|u| u.value("bus/policy_lag_mean") * u.value("train/batch")).sum();
         let simulated_s = (self.end.tally.simulated_us - self.begin.tally.simulated_us) as f64 / 1e6;
         let played_s = self.end.at.duration_since(self.begin.at).as_secs_f64();
@@ -87,36 +77,22 @@ impl Figures<'_> {
         Ok(json!({
             "actors": self.rates.len(),
             "envs": self.envs,
-            "rate_sum": finite(rate_sum),
             "rate_max": finite(self.rates.iter().copied().fold(0.0, f64::max)),
-            "measured_s": rounded(passed_s),
             "updates": window.len(),
             "trained_steps": trained,
             "trained_steps_per_s": rounded(trained / passed_s),
             "trained_per_rate": finite(share(trained / passed_s / rate_sum)),
-            "update_steps_per_s_before": self.calibrated.map(rounded),
             "update_steps_per_s": rounded(speed),
             "trained_per_update": share(trained / passed_s / speed),
-            "batch_mean": rounded(batches.sum::<f64>() / window.len() as f64),
             "idle_share": finite(share(1.0 - simulated_s / (played_s * self.rates.len() as f64)))
                 .filter(|_| rate_sum.is_finite()),
             "policy_lag_mean": share(weighted / sum("train/batch").max(1.0)),
             "policy_lag_max": of_all(f64::max, 0.0, "bus/policy_lag_max"),
             "actors_alive_min": of_all(f64::min, f64::INFINITY, "actors/alive"),
-            "learner_wait_share": window.last().and_then(|update| update.get("learner/wait_share")).map(share),
-            "learner_used_share": window.last().and_then(|update| update.get("rollout/used_share")),
-            "collect_ms": mean_ms("time/collect_s"),
-            "update_ms": mean_ms("time/update_s"),
-            "checkpoint_ms": mean_ms("time/checkpoint_s"),
+            "learner_used_share": window.last().and_then(|update| update.values.get("rollout/used_share")),
             "publish_ms": mean_ms("time/publish_s"),
             "serial_ms": mean_ms("time/serial_s"),
-            "training_thread_cpu_ms": self.training_thread_s().map(|cpu_s| ms(cpu_s * 1e3 / window.len() as f64)),
         }))
-    }
-
-    /// Returns the processor time of the training thread in the window.
-    fn training_thread_s(&self) -> Option<f64> {
-        Some(self.end.training_thread_s? - self.begin.training_thread_s?)
     }
 
     fn fragments(&self) -> anyhow::Result<Value> {
@@ -128,14 +104,15 @@ impl Figures<'_> {
         let untrained = all.accepted_steps as i64 - trained_in_all as i64;
         let batch_max = self.updates.iter().map(|update| update.value("train/batch")).fold(0.0, f64::max);
         let lost = (untrained as f64 - batch_max).max(0.0);
-        let adds_up = all.produced == all.accepted + all.dropped + all.in_flight
-            && all.produced_steps == all.accepted_steps + all.dropped_steps + all.in_flight_steps;
+        let in_flight_steps = all.produced_steps as i64 - all.accepted_steps as i64 - all.dropped_steps as i64;
+        let adds_up = (in_flight_steps == 0) == (all.in_flight() == 0);
         Ok(json!({
             "used_share": trained / (trained + dropped + lost),
             "produced_steps": end.produced_steps - begin.produced_steps,
             "dropped_steps": dropped,
-            "nothing_lost": adds_up && lost == 0.0 && untrained >= -(all.in_flight_steps as i64),
-            "fragments": all.to_json(),
+            "nothing_lost": adds_up && lost == 0.0 && untrained >= -in_flight_steps,
+            "fragments": all,
+            "in_flight": all.in_flight(),
             "trained_in_all_steps": trained_in_all,
             "untrained_steps": untrained,
         }))
@@ -149,16 +126,14 @@ impl Figures<'_> {
             end.iter().map(of).sum::<f64>()
         });
         let quantiles = |sorted: &[f64]| [0.5, 0.99].map(|of| ms(quantile(sorted, of)));
-        let ([receipt_p50, receipt_p99], [fetch_p50, fetch_p99], [late_p50, late_p99]) =
+        let ([receipt_p50, receipt_p99], [fetch_p50, fetch_p99], [_, late_p99]) =
             (quantiles(&times.receipts_ms), quantiles(&times.fetches_ms), quantiles(&times.late_ms));
         Ok(json!({
             "joined_s": ms(self.joined_s),
-            "all_alive_s": self.alive_s.map(ms),
             "receipt_p50_ms": receipt_p50,
             "receipt_p99_ms": receipt_p99,
             "policy_fetch_p50_ms": fetch_p50,
             "policy_fetch_p99_ms": fetch_p99,
-            "send_late_p50_ms": late_p50,
             "send_late_p99_ms": late_p99,
             "policy_bytes": self.bundle_bytes,
             "learner_sent_mb_per_version": sent.map(|sent| share(sent / versions / 1e6)),
@@ -181,6 +156,27 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// Rounds to one decimal.
+pub fn rounded(rate: f64) -> f64 {
+    (rate * 10.0).round() / 10.0
+}
+
+/// Rounds milliseconds to two decimals.
+pub fn ms(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+/// Rounds ratios and costs to three decimals.
+pub fn share(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
+/// Returns a quantile of sorted numbers by rank; zero if there are none.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,29 +187,17 @@ mod tests {
             produced_steps: produced,
             accepted_steps: accepted,
             dropped_steps: dropped,
-            in_flight_steps: produced - accepted - dropped,
             simulated_us: produced * 1000,
             ..Tally::default()
         };
         let sent_bytes = Some(HashMap::from([("peer".to_string(), updates as u64 * 3_000_000)]));
-        Mark {
-            updates,
-            tally,
-            at,
-            fleet_cpu_s: 0.0,
-            learner_cpu_s: updates as f64,
-            routers_cpu_s: 0.0,
-            training_thread_s: Some(updates as f64 * 0.5),
-            sent_bytes,
-        }
+        Mark { updates, tally, at, fleet_cpu_s: 0.0, learner_cpu_s: updates as f64, routers_cpu_s: 0.0, sent_bytes }
     }
 
     fn update(env_steps: u64, elapsed_s: f64, batch: f64) -> LoggedUpdate {
         let values = [
             ("time/time_elapsed", elapsed_s),
-            ("time/collect_s", 1.0),
             ("time/update_s", 0.5),
-            ("time/checkpoint_s", 0.125),
             ("time/publish_s", 0.25),
             ("time/serial_s", 0.375),
             ("train/batch", batch),
@@ -221,7 +205,7 @@ mod tests {
             ("bus/policy_lag_max", elapsed_s),
             ("actors/alive", 2.0),
         ];
-        LoggedUpdate::of(env_steps, &values)
+        LoggedUpdate { env_steps, values: values.map(|(tag, value)| (tag.to_string(), value)).into() }
     }
 
     fn result(accepted_in_all: u64) -> Value {
@@ -231,9 +215,7 @@ mod tests {
         let figures = Figures {
             rates: &[100.0, 50.0],
             envs: 1,
-            calibrated: None,
             joined_s: 0.25,
-            alive_s: None,
             bundle_bytes: 1.0,
             begin: mark(1, start, [200, 120, 10]),
             end: mark(3, start + std::time::Duration::from_secs(4), [800, 600, 50]),
@@ -261,10 +243,8 @@ mod tests {
             // (0.4 x 300 + 0.6 x 100) / 400.
             ("policy_lag_mean", 0.45),
             ("policy_lag_max", 6.0),
-            ("checkpoint_ms", 125.0),
             ("publish_ms", 250.0),
             ("serial_ms", 375.0),
-            ("training_thread_cpu_ms", 500.0),
             ("receipt_p50_ms", 2.0),
             ("receipt_p99_ms", 9.0),
             ("learner_sent_mb_per_version", 3.0),
@@ -285,5 +265,11 @@ mod tests {
         let result = result(900);
         assert_eq!(result["nothing_lost"], false);
         assert_eq!(result["used_share"].as_f64(), Some(400.0 / (400.0 + 40.0 + 100.0)));
+    }
+    #[test]
+    fn quantiles_are_ranks() {
+        let numbers: Vec<f64> = (1..=100).map(f64::from).collect();
+        assert_eq!([0.5, 0.99, 1.0].map(|of| quantile(&numbers, of)), [50.0, 99.0, 100.0]);
+        assert_eq!((quantile(&[7.0], 0.5), quantile(&[], 0.5)), (7.0, 0.0));
     }
 }

@@ -1,61 +1,24 @@
-//! Subscriptions of observers: to any key, and to metrics.
-
-use std::time::Duration;
+//! Scalars of a run on `treadmill/{run}/metrics/{tag}`, where a tag is `group/name`.
 
 use treadmill_proto::{ident::check_ident, json::Metric};
-use zenoh::{
-    Wait,
-    handlers::{RingChannel, RingChannelHandler},
-    pubsub::Subscriber,
-    sample::Sample,
-};
 
-use crate::{Bus, BusError, keys};
+use super::{
+    shared::publisher,
+    subscription::{Feed, Message, observe},
+};
+use crate::{error::BusError, session::Bus};
 
 /// Messages of one tag that may wait: some seconds of the fastest run.
 const METRICS_WAITING: usize = 256;
 
-/// Subscription to a key expression. If too many messages wait, the oldest are dropped.
-pub struct Feed {
-    ring: Subscriber<RingChannelHandler<Sample>>,
+/// Returns the key of a tag.
+fn key(run: &str, tag: &str) -> String {
+    format!("treadmill/{run}/metrics/{tag}")
 }
 
-/// Received message.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
-    /// Key on which it was published.
-    pub key: String,
-    /// Payload.
-    pub payload: Vec<u8>,
-}
-
-impl Feed {
-    /// Returns the next message that has arrived.
-    pub fn try_next(&self) -> Option<Message> {
-        self.ring.try_recv().ok().flatten().map(Message::from)
-    }
-
-    /// Returns the next message, or `None` if none comes within `timeout`.
-    pub fn next(&self, timeout: Duration) -> Option<Message> {
-        self.ring.recv_timeout(timeout).ok().flatten().map(Message::from)
-    }
-}
-
-impl From<Sample> for Message {
-    fn from(sample: Sample) -> Self {
-        Self { key: sample.key_expr().to_string(), payload: sample.payload().to_bytes().into_owned() }
-    }
-}
-
-/// Subscribes to `key`; at most `capacity` messages wait.
-pub fn observe(bus: &Bus, key: &str, capacity: usize) -> Result<Feed, BusError> {
-    let ring = bus
-        .session
-        .declare_subscriber(key.to_string())
-        .with(RingChannel::new(capacity))
-        .wait()
-        .map_err(BusError::flow(format!("listening to {key}")))?;
-    Ok(Feed { ring })
+/// Returns a function that publishes the values of one tag. The bus may drop them.
+pub fn publish_metric(bus: &Bus, run: &str, tag: &str) -> Result<impl Fn(Vec<u8>) + Send + Sync + use<>, BusError> {
+    publisher(bus, key(run, tag))
 }
 
 /// Subscription to a few metric tags.
@@ -66,7 +29,7 @@ pub struct MetricsFeed {
 impl MetricsFeed {
     /// Subscribes to `tags` of `run`, or of every run.
     pub fn open(bus: &Bus, run: Option<&str>, tags: &[&str]) -> Result<Self, BusError> {
-        let subscribe = |tag: &&str| observe(bus, &keys::metric(run.unwrap_or("*"), tag), METRICS_WAITING);
+        let subscribe = |tag: &&str| observe(bus, &key(run.unwrap_or("*"), tag), METRICS_WAITING);
         Ok(Self { feeds: tags.iter().map(subscribe).collect::<Result<_, _>>()? })
     }
 
@@ -79,7 +42,7 @@ impl MetricsFeed {
 /// Returns the metric in a message if it is finite and matches its key.
 fn decode(message: &Message) -> Option<Metric> {
     let metric = Metric::from_json(&message.payload).ok()?;
-    let is_named = check_ident("run", &metric.run).is_ok() && keys::metric(&metric.run, &metric.tag) == message.key;
+    let is_named = check_ident("run", &metric.run).is_ok() && key(&metric.run, &metric.tag) == message.key;
     (is_named && metric.value.is_finite() && metric.time_unix_s.is_finite()).then_some(metric)
 }
 

@@ -18,13 +18,21 @@ use zenoh::{
     qos::{CongestionControl, Priority},
 };
 
-use super::start_thread;
-use crate::{Bus, BusError, Watched, keys};
+use crate::{
+    error::BusError,
+    flows::{shared::start_thread, watched::Watched},
+    session::Bus,
+};
 
 /// Copies that may wait for the link.
 const QUEUE: usize = 32;
 /// Bytes of copies that may wait for the link.
 const QUEUE_BYTES_MAX: usize = 64 << 20;
+
+/// Returns the key of an actor's copies; `*` stands for any actor.
+fn key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/@rollouts/{actor}")
+}
 
 /// Sends copies of accepted fragments.
 pub struct RolloutCopies {
@@ -42,7 +50,7 @@ impl RolloutCopies {
         // One publisher for all actors: one for each name ever seen would need unbounded memory.
         let publisher = bus
             .session
-            .declare_publisher(keys::rollout_copies(run, "*"))
+            .declare_publisher(key(run, "*"))
             .wait()
             .map_err(BusError::flow("declaring copies of fragments"))?;
         let (watched, listener) = Watched::follow(&publisher, "looking for recorders")?;
@@ -81,7 +89,7 @@ fn send(session: &Session, run: &str, waiting: Receiver<(String, ZBytes)>, waiti
     for (actor, fragment) in waiting {
         let size = fragment.len();
         let sent = session
-            .put(keys::rollout_copies(run, &actor), fragment)
+            .put(key(run, &actor), fragment)
             .congestion_control(CongestionControl::Drop)
             .priority(Priority::Background)
             .wait();

@@ -1,7 +1,7 @@
-//! Policies: the learner serves the newest one and announces each version; actors watch the announcements.
+//! The learner serves the newest policy and announces each version.
 //!
-//! Actors get pieces of a bundle without the critic ([`super::policy_pieces`]). Other programs, and actors older than that,
-//! get the whole bundle in one reply on `policy/latest`.
+//! Actors get pieces of a bundle without the critic ([`super::pieces`]). Other programs may ask for the whole bundle, in
+//! one reply on `policy/latest`.
 
 use std::sync::{
     Arc, Mutex, RwLock, Weak,
@@ -12,23 +12,28 @@ use bytes::Bytes;
 use treadmill_proto::{Malformed, PolicyAnnouncement, PolicyBundle};
 use zenoh::{
     Wait,
-    handlers::{RingChannel, RingChannelHandler},
-    pubsub::{Publisher, Subscriber},
+    pubsub::Publisher,
     qos::{CongestionControl, Priority},
     query::Query,
-    sample::Sample,
 };
 
 use super::{
-    policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
-    reply_on, start_thread,
+    announcements,
+    pieces::{self, ActorPolicy, PieceReply, PieceServer, ServedPolicies},
 };
-use crate::{Bus, BusError, keys, workarounds::kept_queryables::declare_queryable};
+use crate::{
+    error::BusError,
+    flows::shared::{reply_on, serve, start_thread},
+    session::Bus,
+};
 
 /// Requests for a whole bundle that may wait for a thread. Further ones get no reply.
 const QUEUE: usize = 1024;
 /// Threads that send whole bundles.
 const THREADS: usize = 2;
+
+/// What fails, in errors.
+const SERVING: &str = "serving policies";
 
 /// Policy as the learner publishes it.
 #[derive(Debug)]
@@ -68,7 +73,7 @@ impl PolicyServer {
         let pieces = PieceServer::start()?;
         let serve_pieces = |key| {
             let (current, pieces) = (Arc::downgrade(&current), pieces.clone());
-            declare(bus, key, move |query| {
+            serve(bus, key, SERVING, move |query| {
                 let Some(current) = current.upgrade() else { return };
                 let policy = current.read().expect("no holder of this lock panics").for_actors.clone();
                 if let Some(reply) = PieceReply::read(query) {
@@ -76,12 +81,12 @@ impl PolicyServer {
                 }
             })
         };
-        serve_pieces(keys::policy_pieces(&run))?;
-        serve_pieces(keys::policy_pieces_of(&run, &bus.session.zid().to_string()))?;
+        serve_pieces(pieces::key(&run))?;
+        serve_pieces(pieces::key_of(&run, &bus.session.zid().to_string()))?;
         serve_bundles(bus, &run, &current)?;
         let announcer = bus
             .session
-            .declare_publisher(keys::policy_version(&run))
+            .declare_publisher(announcements::key(&run))
             .congestion_control(CongestionControl::Drop)
             .priority(Priority::DataHigh)
             .wait()
@@ -112,24 +117,20 @@ impl PolicyServer {
     }
 }
 
-/// Declares a queryable that lasts as long as the session. Its callback must not block.
-pub(super) fn declare(
-    bus: &Bus,
-    key: String,
-    callback: impl Fn(Query) + Send + Sync + 'static,
-) -> Result<(), BusError> {
-    declare_queryable(&bus.session, key, callback).map_err(BusError::flow("serving policies"))
+/// Returns `treadmill/{run}/policy/latest`: the whole newest bundle.
+fn latest_key(run: &str) -> String {
+    format!("treadmill/{run}/policy/latest")
 }
 
 /// Serves whole bundles on threads of their own. A large bundle may wait for space on a link, and pieces must not.
 fn serve_bundles(bus: &Bus, run: &str, current: &Arc<RwLock<PublishedPolicy>>) -> Result<(), BusError> {
     let (sender, requests) = sync_channel::<Query>(QUEUE);
-    let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
+    let (key, requests) = (latest_key(run), Arc::new(Mutex::new(requests)));
     for number in 0..THREADS {
         let (current, key, requests) = (Arc::downgrade(current), key.clone(), requests.clone());
         start_thread(&format!("policy-bundles-{number}"), move || send_bundles(&current, &key, &requests))?;
     }
-    declare(bus, key, move |query| drop(sender.try_send(query)))
+    serve(bus, key, SERVING, move |query| drop(sender.try_send(query)))
 }
 
 /// Answers requests until there is no policy, or the queue is closed.
@@ -142,28 +143,4 @@ fn send_bundles(current: &Weak<RwLock<PublishedPolicy>>, key: &str, requests: &M
         // The reply's key names the run even if the request did not.
         reply_on(&query, key, bundle, "policy bundle");
     }
-}
-
-/// Announcements of new policies; only the newest is kept.
-pub struct Announcements {
-    ring: Subscriber<RingChannelHandler<Sample>>,
-}
-
-impl Announcements {
-    /// Waits for the next announcement. `None` if it is invalid or the session is closed.
-    pub async fn next(&self) -> Option<PolicyAnnouncement> {
-        let sample = self.ring.recv_async().await.ok()?;
-        PolicyAnnouncement::decode(&sample.payload().to_bytes()).ok()
-    }
-}
-
-/// Subscribes to announcements.
-pub fn watch_announcements(bus: &Bus, run: &str) -> Result<Announcements, BusError> {
-    let ring = bus
-        .session
-        .declare_subscriber(keys::policy_version(run))
-        .with(RingChannel::new(1))
-        .wait()
-        .map_err(BusError::flow("listening to announcements"))?;
-    Ok(Announcements { ring })
 }

@@ -3,7 +3,7 @@
 use std::{
     collections::HashMap,
     fs::File,
-    io::{Read, Seek, SeekFrom},
+    io::{BufRead, BufReader},
     path::PathBuf,
 };
 
@@ -11,12 +11,11 @@ use anyhow::Context;
 use treadmill_proto::json::Metric;
 
 /// Tags that every update has. An update is complete once it has them all.
-const REQUIRED: [&str; 9] = [
-    "time/total_timesteps",
+const REQUIRED: [&str; 8] = [
     "time/time_elapsed",
-    "time/collect_s",
     "time/update_s",
-    "time/checkpoint_s",
+    "time/publish_s",
+    "time/serial_s",
     "train/batch",
     "bus/policy_lag_mean",
     "bus/policy_lag_max",
@@ -28,63 +27,47 @@ const REQUIRED: [&str; 9] = [
 pub struct LoggedUpdate {
     /// Environment steps of the run so far.
     pub env_steps: u64,
-    values: HashMap<String, f64>,
+    pub values: HashMap<String, f64>,
 }
 
 impl LoggedUpdate {
-    #[cfg(test)]
-    pub fn of(env_steps: u64, values: &[(&str, f64)]) -> Self {
-        Self { env_steps, values: values.iter().map(|(tag, value)| ((*tag).to_string(), *value)).collect() }
-    }
-
-    /// Returns the value of a tag.
-    pub fn get(&self, tag: &str) -> Option<f64> {
-        self.values.get(tag).copied()
-    }
-
     /// Returns the value of a tag that every update has.
     pub fn value(&self, tag: &str) -> f64 {
-        self.get(tag).unwrap_or(0.0)
-    }
-
-    fn is_complete(&self) -> bool {
-        REQUIRED.iter().all(|tag| self.values.contains_key(*tag))
+        self.values.get(tag).copied().unwrap_or(0.0)
     }
 }
 
 /// Updates of a run, read from `metrics.jsonl`.
 pub struct RunMetrics {
     path: PathBuf,
-    read: u64,
+    file: Option<BufReader<File>>,
     /// Beginning of a line that is not complete.
-    rest: Vec<u8>,
+    line: Vec<u8>,
     updates: Vec<LoggedUpdate>,
 }
 
 impl RunMetrics {
     /// Follows a file that may not exist yet.
     pub fn follow(path: PathBuf) -> Self {
-        Self { path, read: 0, rest: Vec::new(), updates: Vec::new() }
+        Self { path, file: None, line: Vec::new(), updates: Vec::new() }
     }
 
     /// Reads the lines written since the last call. Returns the complete updates.
     pub fn poll(&mut self) -> anyhow::Result<&[LoggedUpdate]> {
-        if let Ok(mut file) = File::open(&self.path) {
-            let unreadable = || format!("cannot read `{}`", self.path.display());
-            file.seek(SeekFrom::Start(self.read)).with_context(unreadable)?;
-            self.read += file.read_to_end(&mut self.rest).with_context(unreadable)? as u64;
-            let end = self.rest.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
-            let lines: Vec<u8> = self.rest.drain(..end).collect();
-            lines
-                .split(|byte| *byte == b'\n')
-                .filter_map(|line| Metric::from_json(line).ok())
-                .for_each(|m| self.add(m));
+        if self.file.is_none() {
+            self.file = File::open(&self.path).ok().map(BufReader::new);
         }
-        let complete = match self.updates.last() {
-            Some(last) if !last.is_complete() => self.updates.len() - 1,
-            _ => self.updates.len(),
-        };
-        Ok(&self.updates[..complete])
+        while let Some(file) = &mut self.file
+            && file.read_until(b'\n', &mut self.line).context("the learner's metrics cannot be read")? > 0
+            && self.line.ends_with(b"\n")
+        {
+            if let Ok(metric) = Metric::from_json(&std::mem::take(&mut self.line)) {
+                self.add(metric);
+            }
+        }
+        let is_complete = |update: &LoggedUpdate| REQUIRED.iter().all(|tag| update.values.contains_key(*tag));
+        let newest_is_complete = self.updates.last().is_none_or(is_complete);
+        Ok(&self.updates[..self.updates.len() - usize::from(!newest_is_complete)])
     }
 
     fn add(&mut self, metric: Metric) {
@@ -126,7 +109,6 @@ mod tests {
         write!(file, "{rest}{}", lines(20, &["rollout/used_share"])).unwrap();
         let updates = metrics.poll().unwrap();
         assert_eq!(updates.iter().map(|u| u.env_steps).collect::<Vec<_>>(), [10, 20]);
-        assert_eq!(updates[1].get("rollout/used_share"), Some(20.5));
-        assert_eq!((updates[0].get("rollout/used_share"), updates[0].value("train/batch")), (None, 10.5));
+        assert_eq!((updates[0].value("train/batch"), updates[1].value("rollout/used_share")), (10.5, 20.5));
     }
 }

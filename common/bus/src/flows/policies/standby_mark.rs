@@ -9,8 +9,8 @@ use std::{sync::Arc, time::Duration};
 use treadmill_proto::PolicyRequest;
 use zenoh::{Wait, query::ConsolidationMode};
 
-use super::policies::declare;
-use crate::{Bus, BusError, keys};
+use super::pieces;
+use crate::{error::BusError, flows::shared::serve, session::Bus};
 
 /// Error with which a standby answers requests for its policy.
 const FOLLOWS: &[u8] = b"this learner follows";
@@ -27,7 +27,7 @@ impl StandbyMark {
     pub fn open(bus: &Bus) -> Result<Self, BusError> {
         let follows = Arc::new(());
         let mark = Arc::downgrade(&follows);
-        declare(bus, keys::policy_pieces_of("*", &bus.session.zid().to_string()), move |query| {
+        serve(bus, pieces::key_of("*", &bus.session.zid().to_string()), "serving policies", move |query| {
             if mark.strong_count() > 0
                 && let Err(error) = query.reply_err(FOLLOWS).wait()
             {
@@ -47,7 +47,7 @@ pub async fn is_behind_standby(bus: &Bus, run: &str, request: &PolicyRequest) ->
     for node in bus.session.info().routers_zid().wait() {
         let replies = bus
             .session
-            .get(keys::policy_pieces_of(run, &node.to_string()))
+            .get(pieces::key_of(run, &node.to_string()))
             .payload(request.encode())
             .timeout(TIMEOUT)
             .consolidation(ConsolidationMode::None)

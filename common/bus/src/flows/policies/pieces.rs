@@ -13,13 +13,25 @@ use bytes::Bytes;
 use treadmill_proto::{Malformed, PolicyBundle, PolicyPiece, PolicyRequest, PolicyVersion};
 use zenoh::{bytes::ZBytes, query::Query};
 
-use super::{reply_on, start_thread};
-use crate::{BusError, keys};
+use crate::{
+    error::BusError,
+    flows::shared::{reply, reply_on, start_thread},
+};
 
 /// Requests that may wait for a thread. Further ones get no reply, and their actors ask again.
 const QUEUE: usize = 4096;
 /// Threads that send pieces.
 const THREADS: usize = 2;
+
+/// Returns the key of the newest policy for actors, from the learner.
+pub(super) fn key(run: &str) -> String {
+    format!("treadmill/{run}/policy/pieces")
+}
+
+/// Returns the key of the same from the learner or router with the Zenoh ID `node`.
+pub(super) fn key_of(run: &str, node: &str) -> String {
+    format!("treadmill/{run}/policy/pieces/{node}")
+}
 
 /// Newest policy as actors get it: without the critic.
 #[derive(Debug)]
@@ -152,8 +164,8 @@ fn send_pieces(requests: &Mutex<Receiver<(PieceReply, Arc<ActorPolicy>)>>, count
         }
         // The reply's key names the run even if the request did not.
         match query.key_expr().is_wild() {
-            true => reply_on(&query, &keys::policy_pieces(&policy.run), encoded, "piece of a policy"),
-            false => reply_on(&query, query.key_expr().as_str(), encoded, "piece of a policy"),
+            true => reply_on(&query, &key(&policy.run), encoded, "piece of a policy"),
+            false => reply(&query, encoded, "piece of a policy"),
         }
     }
 }
