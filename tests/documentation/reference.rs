@@ -4,8 +4,15 @@
 
 use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
 
-use crate::support::*;
+use crate::{
+    support::*,
+    tidy::{assert_none, files, root},
+};
 use treadmill_config::Config;
+use treadmill_learner::metrics::catalogue::{METRICS, MetricRow};
+
+/// Most words of the page of metrics.
+const METRICS_WORDS_MAX: usize = 1600;
 
 fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/reference").join(name).with_extension("md")
@@ -81,23 +88,29 @@ fn every_command_and_flag_is_in_the_reference() {
 }
 
 #[test]
-fn the_page_of_metrics_explains_exactly_the_logged_tags() {
-    let source = |path: &str| fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
-    let is_tag = |text: &&str| {
-        let parts: Vec<&str> = text.split('/').collect();
-        parts.len() == 2
-            && parts.iter().all(|part| !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
-    };
-    let scalars = source("learner/src/metrics/scalars.rs");
-    let logged: BTreeSet<&str> = scalars.split('"').skip(1).step_by(2).filter(is_tag).collect();
-    let metrics = page("reference/metrics");
-    let explained: BTreeSet<&str> = metrics
-        .lines()
-        .filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(tag, _)| tag))
-        .filter(is_tag)
-        .collect();
-    assert!(logged.len() > 50, "{logged:?}");
-    assert_eq!(logged, explained, "docs/reference/metrics.md explains what learner/src/metrics/scalars.rs logs");
+fn every_metric_is_in_the_reference() {
+    let page = assert_generated("metrics");
+    for MetricRow { tag, help, .. } in METRICS {
+        assert!(page.lines().any(|line| line.starts_with("- `") && line.ends_with(&format!(": {help}"))), "{tag}");
+    }
+    let tags: BTreeSet<&str> = METRICS.iter().map(|row| row.tag).collect();
+    assert_eq!(tags.len(), METRICS.len(), "each tag has one row");
+    assert!(page.split_whitespace().count() <= METRICS_WORDS_MAX, "the page is short");
+}
+
+#[test]
+fn tags_in_programs_and_pages_are_in_the_table() {
+    let groups: BTreeSet<&str> = METRICS.iter().map(MetricRow::group).collect();
+    let is_name =
+        |name: &str| !name.is_empty() && name.chars().all(|c| c.is_ascii_lowercase() || "_0123456789".contains(c));
+    let is_tag =
+        |word: &&str| word.split_once('/').is_some_and(|(group, name)| groups.contains(group) && is_name(name));
+    let mut offences = Vec::new();
+    for (file, text) in files(&["rs", "py", "md"]) {
+        let unknown = text.split(['"', '\'', '`']).filter(is_tag).filter(|tag| MetricRow::of(tag).is_none());
+        offences.extend(unknown.filter(|tag| !root().join(tag).exists()).map(|tag| format!("{file}: {tag}")));
+    }
+    assert_none(&offences, "tags are those of learner/src/metrics/catalogue.rs");
 }
 
 #[test]

@@ -45,12 +45,13 @@ const GENERATED_SOURCES: &str = "proto/src/generated/";
 /// This file names what it forbids.
 const THIS_FILE: &str = "tests/documentation/tidy.rs";
 
-pub(crate) fn root() -> &'static Path {
+/// Returns the repository's root.
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 /// Returns path and text of every file with one of these extensions, sorted by path.
-fn files(kinds: &[&str]) -> Vec<(String, String)> {
+pub fn files(kinds: &[&str]) -> Vec<(String, String)> {
     let mut found = Vec::new();
     collect(root(), &mut found);
     let named = found.into_iter().filter_map(|path| {
@@ -83,8 +84,9 @@ pub(crate) fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
+/// Asserts that no file offends against a rule.
 #[track_caller]
-fn assert_none(offences: &[String], rule: &str) {
+pub fn assert_none(offences: &[String], rule: &str) {
     assert!(offences.is_empty(), "{rule}; {} offences:\n{}", offences.len(), offences.join("\n"));
 }
 

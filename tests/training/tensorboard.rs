@@ -106,7 +106,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "no fragment lags in lock-step");
     let documented = page("reference/metrics");
     for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions", "description"] {
-        assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
+        assert!(documented.contains(&format!("`{tag}`")), "docs/reference/metrics.md does not explain {tag}");
     }
 
     // One row of the HPARAMS tab.

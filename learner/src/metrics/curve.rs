@@ -29,6 +29,9 @@ const DOTS_MAX: usize = 60;
 const TITLE: RGBColor = RGBColor(40, 40, 40);
 const LABEL: RGBColor = RGBColor(90, 90, 90);
 const GRID: RGBColor = RGBColor(225, 225, 225);
+const BLUE: RGBColor = RGBColor(31, 119, 180);
+const GREEN: RGBColor = RGBColor(44, 140, 60);
+const ORANGE: RGBColor = RGBColor(200, 80, 30);
 
 /// Plot of one quantity over environment steps.
 struct Panel {
@@ -40,48 +43,28 @@ struct Panel {
     colour: RGBColor,
 }
 
-const RETURN: Panel = Panel {
-    tag: "rollout/ep_rew_mean",
-    title: "Return",
-    axis: "return per episode",
-    better: f64::max,
-    colour: RGBColor(31, 119, 180),
-};
+const fn panel(
+    tag: &'static str,
+    title: &'static str,
+    axis: &'static str,
+    better: fn(f64, f64) -> f64,
+    colour: RGBColor,
+) -> Panel {
+    Panel { tag, title, axis, better, colour }
+}
+
+const RETURN: Panel = panel("rollout/ep_rew_mean", "Return", "return per episode", f64::max, BLUE);
 /// Panels of a task that goes forward.
 const PANELS: [Panel; 3] = [
     RETURN,
-    Panel {
-        tag: "rollout/distance_mean_m",
-        title: "Distance",
-        axis: "distance per episode [m]",
-        better: f64::max,
-        colour: RGBColor(44, 140, 60),
-    },
-    Panel {
-        tag: "rollout/velocity_mean_mps",
-        title: "Velocity",
-        axis: "mean velocity [m/s]",
-        better: f64::max,
-        colour: RGBColor(200, 80, 30),
-    },
+    panel("rollout/distance_mean_m", "Distance", "distance per episode [m]", f64::max, GREEN),
+    panel("rollout/velocity_mean_mps", "Velocity", "mean velocity [m/s]", f64::max, ORANGE),
 ];
 /// Panels of a task that follows commands.
 const COMMANDED_PANELS: [Panel; 3] = [
     RETURN,
-    Panel {
-        tag: "eval/velocity_error",
-        title: "Velocity error",
-        axis: "evaluated error [m/s]",
-        better: f64::min,
-        colour: RGBColor(44, 140, 60),
-    },
-    Panel {
-        tag: "eval/yaw_rate_error",
-        title: "Yaw rate error",
-        axis: "evaluated error [rad/s]",
-        better: f64::min,
-        colour: RGBColor(200, 80, 30),
-    },
+    panel("eval/velocity_error", "Velocity error", "evaluated error [m/s]", f64::min, GREEN),
+    panel("eval/yaw_rate_error", "Yaw rate error", "evaluated error [rad/s]", f64::min, ORANGE),
 ];
 
 /// Why the learning curve cannot be drawn.

@@ -23,11 +23,11 @@ pub struct Point {
 }
 
 /// Return and distance of a run so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct History {
     points: Vec<Point>,
-    /// Number of updates per kept point.
-    every: u64,
+    /// How often every second point was dropped: one in `2^halvings` updates has a point.
+    halvings: u32,
     seen: u64,
     last: Option<Point>,
     /// Greatest mean distance in training, in metres.
@@ -36,20 +36,6 @@ pub struct History {
     pub evaluated_best_m: Option<f64>,
     /// Errors of the velocity (m/s) and the yaw rate (rad/s) in the last evaluation, of a task with commands.
     pub tracking_errors: Option<[f64; 2]>,
-}
-
-impl Default for History {
-    fn default() -> Self {
-        Self {
-            points: Vec::new(),
-            every: 1,
-            seen: 0,
-            last: None,
-            distance_best_m: None,
-            evaluated_best_m: None,
-            tracking_errors: None,
-        }
-    }
 }
 
 impl History {
@@ -85,11 +71,10 @@ impl History {
         let (Some(return_mean), Some(distance_m)) = (return_mean, distance_m) else { return };
         let point = Point { return_mean, distance_m };
         self.last = Some(point);
-        if self.seen.is_multiple_of(self.every) {
+        if self.seen.is_multiple_of(1 << self.halvings) {
             if self.points.len() == POINTS_MAX {
-                let mut index = 0;
-                self.points.retain(|_| (index % 2 == 0, index += 1).0);
-                self.every *= 2;
+                self.points = self.points.iter().step_by(2).copied().collect();
+                self.halvings += 1;
             }
             self.points.push(point);
         }

@@ -1,7 +1,8 @@
 //! Scalars and histograms of each update, and their outputs.
 //!
 //! # Layout
-//! - [`scalars`]: the scalars of each update; [`histograms`]: distributions of actions and lags.
+//! - [`catalogue`]: [`METRICS`](catalogue::METRICS), the table of all metrics: tag, unit, help and source of the value.
+//! - [`scalars`]: what the scalars of an update are computed from; [`histograms`]: distributions of actions and lags.
 //! - [`reward_terms`]: [`RewardTerms`], the terms of the reward over a batch.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
 //! - [`progress`]: [`Console`], progress on standard output.
@@ -16,6 +17,7 @@
 //!
 //! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
 
+pub mod catalogue;
 pub mod curve;
 pub mod curve_thread;
 mod efficiency;

@@ -70,9 +70,9 @@ fn all_metrics_are_shown_only_on_request() {
     let captured = Captured::default();
     let mut console = console(&captured, 0, 0, options(false, true));
     console.progress_at(500, &[], &History::default(), seconds(60));
-    console.table(&[("train/loss".to_string(), f64::NAN)]);
+    console.table(&[("train/value_loss".to_string(), f64::NAN)]);
     console.finish(&History::default());
-    assert_eq!(captured.text(), "steps=500 train/loss=nan\n");
+    assert_eq!(captured.text(), "steps=500 train/value_loss=nan\n");
 }
 
 #[test]

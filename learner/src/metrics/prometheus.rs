@@ -1,12 +1,12 @@
 //! Newest value of every metric in Prometheus's text format.
 //!
-//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as a label. Its help text comes from the
-//! tag's row in `docs/reference/metrics.md`.
+//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as a label. Its help text has the meaning and
+//! the unit in the tag's row of [`METRICS`].
 
 use std::{
     collections::{BTreeMap, HashMap},
     fmt,
-    sync::{Arc, LazyLock, Mutex, MutexGuard},
+    sync::{Arc, Mutex, MutexGuard},
 };
 
 use prometheus_client::{
@@ -17,27 +17,21 @@ use prometheus_client::{
 };
 use treadmill_proto::{ActorStats, PolicyVersion};
 
+use super::catalogue::{METRICS, MetricRow, MetricSource};
+
 /// HTTP content type of the page.
 pub const CONTENT_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
 /// Most actors with separate gauges, so that a page stays small. Sums include all actors.
 const ACTORS_SHOWN_MAX: usize = 1024;
 
-/// Gauge of each actor: name and value.
-type ActorGauge = (&'static str, fn(&ActorStats, PolicyVersion) -> Option<f64>);
+/// Computes the value of an actor's gauge.
+type OfActor = fn(&ActorStats, PolicyVersion) -> Option<f64>;
 
-const ACTOR_GAUGES: [ActorGauge; 6] = [
-    ("actor_env_steps_per_s", |stats, _| Some(stats.env_steps_per_s)),
-    ("actor_envs", |stats, _| Some(stats.envs.into())),
-    ("actor_policy_version", |stats, _| stats.version.as_ref().map(|version| version.number as f64)),
-    // Absent if its policy is of another learner.
-    ("actor_policy_lag", |stats, newest| {
-        let version = stats.version.as_ref().filter(|version| version.incarnation == newest.incarnation)?;
-        Some(newest.number.saturating_sub(version.number) as f64)
-    }),
-    ("actor_fragments_resent", |stats, _| Some(stats.resent as f64)),
-    ("actor_memory_mb", |stats, _| Some(stats.resident_bytes as f64 / 1e6)),
-];
+/// Returns the gauges that each actor has.
+fn actor_gauges() -> impl Iterator<Item = (&'static str, OfActor)> {
+    METRICS.iter().filter_map(|row| if let MetricSource::Actor(of) = row.source { Some((row.tag, of)) } else { None })
+}
 
 /// Newest values, shared between the training thread and the metrics page.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +42,8 @@ pub struct PrometheusMetrics {
 #[derive(Debug, Default)]
 struct Newest {
     scalars: BTreeMap<String, f64>,
-    actors: BTreeMap<String, Vec<(usize, f64)>>,
+    /// Values of [`actor_gauges`], in their order.
+    actors: BTreeMap<String, Vec<Option<f64>>>,
 }
 
 impl PrometheusMetrics {
@@ -68,18 +63,14 @@ impl PrometheusMetrics {
         let mut names: Vec<&String> = stats.keys().collect();
         names.sort_unstable();
         names.truncate(ACTORS_SHOWN_MAX);
-        let row = |stats: &ActorStats| {
-            let values = ACTOR_GAUGES.iter().map(|(_, of)| of(stats, version)).enumerate();
-            values.filter_map(|(index, value)| Some((index, value?))).collect()
-        };
+        let row = |stats: &ActorStats| actor_gauges().map(|(_, of)| of(stats, version)).collect();
         self.lock().actors = names.into_iter().map(|name| (name.clone(), row(&stats[name]))).collect();
     }
 
     /// Returns the page with all values and with `live`, the caller's current values.
     pub fn page(&self, run: &str, live: &[(&str, f64)]) -> String {
         self.set(live.iter().copied());
-        let mut registry =
-            Registry::with_prefix_and_labels("treadmill", [("run".into(), run.to_string().into())].into_iter());
+        let mut registry = Registry::with_labels([("run".into(), run.to_string().into())].into_iter());
         registry.register_collector(Box::new(self.clone()));
         let mut page = String::new();
         text::encode(&mut page, &registry).expect("writing to a string does not fail");
@@ -96,15 +87,16 @@ impl Collector for PrometheusMetrics {
         let newest = self.lock();
         for (tag, value) in &newest.scalars {
             let name = gauge(tag);
-            let descriptor = encoder.encode_descriptor(&name, help(&name), None, MetricType::Gauge)?;
+            let descriptor = encoder.encode_descriptor(&name, &help(tag), None, MetricType::Gauge)?;
             ConstGauge::new(*value).encode(descriptor)?;
         }
-        for (index, (name, _)) in ACTOR_GAUGES.iter().enumerate() {
-            let mut descriptor = encoder.encode_descriptor(name, help(name), None, MetricType::Gauge)?;
+        for (index, (tag, _)) in actor_gauges().enumerate() {
+            let name = gauge(tag);
+            let mut descriptor = encoder.encode_descriptor(&name, &help(tag), None, MetricType::Gauge)?;
             for (actor, values) in &newest.actors {
-                if let Some((_, value)) = values.iter().find(|(of, _)| *of == index) {
+                if let Some(value) = values[index] {
                     let labels = [("actor", actor.as_str())];
-                    ConstGauge::new(*value).encode(descriptor.encode_family(&labels)?)?;
+                    ConstGauge::new(value).encode(descriptor.encode_family(&labels)?)?;
                 }
             }
         }
@@ -112,32 +104,15 @@ impl Collector for PrometheusMetrics {
     }
 }
 
-/// Returns the gauge's name for a tag, without the prefix.
-fn gauge(tag: &str) -> String {
-    tag.replace('/', "_")
+/// Returns the name of a tag's gauge.
+pub fn gauge(tag: &str) -> String {
+    format!("treadmill_{}", tag.replace('/', "_"))
 }
 
-/// Returns the help text of a gauge from the page of metrics.
-fn help(gauge: &str) -> &'static str {
-    static HELP: LazyLock<HashMap<String, String>> =
-        LazyLock::new(|| include_str!("../../../docs/reference/metrics.md").lines().filter_map(row).collect());
-    let other = if gauge.starts_with("rewards_") {
-        "Mean of weight times this term of the reward over the batch"
-    } else {
-        "A metric of Treadmill"
-    };
-    HELP.get(gauge).map_or(other, String::as_str)
-}
-
-/// Parses a row of the page's tables: name of the gauge and help text.
-fn row(line: &str) -> Option<(String, String)> {
-    let (name, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
-    let (unit, meaning) = rest.strip_suffix(" |")?.split_once(" | ")?;
-    // The typical value is in the last column.
-    let meaning = meaning.split(" | ").next().unwrap_or(meaning);
-    let name =
-        name.strip_prefix("treadmill_").map(str::to_string).or_else(|| name.contains('/').then(|| gauge(name)))?;
-    Some((name, format!("{meaning} Unit: {unit}.").replace(['`', '"', '\\'], "")))
+/// Returns the help text of a tag's gauge: meaning and unit, as plain text.
+fn help(tag: &str) -> String {
+    let Some(MetricRow { help, unit, .. }) = MetricRow::of(tag) else { return "A metric of Treadmill".to_string() };
+    format!("{help} Unit: {unit}.").replace(['`', '"', '\\'], "")
 }
 
 #[cfg(test)]
@@ -189,13 +164,10 @@ mod tests {
     }
 
     #[test]
-    fn help_texts_come_from_the_page_of_metrics() {
-        assert_eq!(help("no_such_gauge"), "A metric of Treadmill");
-        let text = help("learner_memory_mb");
-        assert!(text.contains("Resident memory of the learner process. Unit: MB"), "{text}");
-        assert!(help("actor_envs").contains("Unit: count"));
-        assert_eq!(row("| `run`, `actor` | – | Which run, and which of its actors. |"), None);
-        assert_eq!(row("| `a/b` | s | Says `x`. |"), Some(("a_b".to_string(), "Says x. Unit: s.".to_string())));
-        assert_eq!(row("| `treadmill_c` | s | C. |"), Some(("c".to_string(), "C. Unit: s.".to_string())));
+    fn help_texts_come_from_the_table() {
+        assert_eq!(help("no_such/tag"), "A metric of Treadmill");
+        assert!(help("time/publish_s").ends_with(", including time/checkpoint_s. Unit: s."));
+        assert_eq!(help("rewards/any"), help("rewards/other"));
+        assert_eq!(help("actor/envs"), "Its environments. Unit: count.");
     }
 }

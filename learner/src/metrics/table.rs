@@ -2,7 +2,7 @@
 
 use console::measure_text_width;
 
-use super::Scalars;
+use super::{Scalars, catalogue::MetricRow};
 
 /// Indentation of a name below its group's heading.
 const INDENT: &str = "   ";
@@ -16,33 +16,11 @@ const PLAIN_BELOW: f64 = 1e15;
 /// Numbers below this are written with an exponent.
 const PLAIN_FROM: f64 = 1e-4;
 
-/// Metrics of the tables on a terminal, which have at most 25 lines.
-const IMPORTANT: &[&str] = &[
-    "rollout/ep_rew_mean",
-    "rollout/ep_len_mean",
-    "rollout/distance_mean_m",
-    "rollout/distance_best_m",
-    "rollout/fall_fraction",
-    "rollout/used_share",
-    "eval/mean_reward",
-    "eval/distance_mean_m",
-    "eval/velocity_error",
-    "eval/yaw_rate_error",
-    "actors/alive",
-    "actors/idle_share",
-    "time/fps",
-    "time/total_timesteps",
-    "train/approx_kl",
-    "train/clip_fraction",
-    "train/explained_variance",
-    "train/learning_rate",
-    "train/std",
-];
-
 /// Returns the most important metrics, in their own order: errors instead of distances where the task has commands.
 pub fn important(scalars: &Scalars) -> Vec<(String, f64)> {
     let is_commanded = scalars.iter().any(|(tag, _)| tag == "eval/velocity_error");
-    let shown = |tag: &str| IMPORTANT.contains(&tag) && !(is_commanded && tag.contains("distance"));
+    let is_important = |tag: &str| MetricRow::of(tag).is_some_and(|row| row.is_important);
+    let shown = |tag: &str| is_important(tag) && !(is_commanded && tag.contains("distance"));
     scalars.iter().filter(|(tag, _)| shown(tag)).cloned().collect()
 }
 
@@ -162,7 +140,7 @@ mod tests {
     #[test]
     fn a_table_of_important_metrics_fits_a_small_terminal() {
         let all: Vec<(String, f64)> =
-            IMPORTANT.iter().chain(&["bus/accepted_mb"]).map(|tag| (tag.to_string(), 1.5)).collect();
+            crate::metrics::catalogue::METRICS.iter().map(|row| (row.tag.to_string(), 1.5)).collect();
         for all in [all.clone(), all.into_iter().filter(|(tag, _)| tag != "eval/velocity_error").collect()] {
             let table = render_table(&important(&all));
             assert!(table.lines().count() <= 25 && !table.contains("accepted_mb"), "{table}");
@@ -217,8 +195,8 @@ mod tests {
     fn a_line_keeps_whole_tags() {
         assert_eq!(render_line(7, &[]), "steps=7");
         assert_eq!(
-            render_line(81_920, &scalars(&[("rollout/ep_rew_mean", 1.5), ("train/loss", f64::NAN)])),
-            "steps=81920 rollout/ep_rew_mean=1.5 train/loss=nan"
+            render_line(81_920, &scalars(&[("rollout/ep_rew_mean", 1.5), ("train/value_loss", f64::NAN)])),
+            "steps=81920 rollout/ep_rew_mean=1.5 train/value_loss=nan"
         );
     }
 }

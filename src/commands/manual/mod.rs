@@ -1,11 +1,13 @@
-//! `treadmill completions`, `man` and the hidden `reference`: text generated from definitions of commands and keys.
+//! `treadmill completions`, `man` and the hidden `reference`: text generated from definitions of commands, keys and metrics.
 //!
 //! # Layout
 //! - [`commands`]: page of all commands and flags.
 //! - [`configuration`]: page of all configuration keys.
+//! - [`metrics`]: page of all metrics.
 
 mod commands;
 mod configuration;
+mod metrics;
 
 use std::{fs, path::PathBuf};
 
@@ -47,6 +49,7 @@ pub struct ReferenceArgs {
 enum Page {
     Commands,
     Configuration,
+    Metrics,
 }
 
 /// Prints the script.
@@ -76,6 +79,7 @@ pub fn reference(args: &ReferenceArgs, program: Command) {
     let page = match args.page {
         Page::Commands => commands::page(program),
         Page::Configuration => configuration::page(),
+        Page::Metrics => metrics::page(),
     };
     say(page.trim_end());
 }
