@@ -123,7 +123,7 @@ impl Environments {
             ended: None,
             last_observation: vec![0.0; environment.observation_size()],
         };
-        let vector = VectorEnvironment::new(count, || tasks.environment(config, model_xml), results)?;
+        let vector = VectorEnvironment::new(count, || Environment::with_tasks(config, model_xml, tasks), results)?;
         let mut reward_sums = Vec::new();
         if let Some(first) = vector.slots().first() {
             first.environment.task().reward_terms(&mut |name, _| reward_sums.push((name, 0.0)));

@@ -6,7 +6,7 @@ use treadmill_bus::{
     Bus,
     actor::{Assignment, ask_for_evaluation},
 };
-use treadmill_humanoid::TaskRegistry;
+use treadmill_humanoid::{Environment, TaskRegistry};
 use treadmill_proto::{EvaluationReport, PolicyBundle};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 
@@ -74,7 +74,7 @@ fn play(
     shutdown: &Shutdown,
 ) -> Result<Option<EvaluationReport>, ActorError> {
     let settings = RunSettings::simulated(bundle)?;
-    let mut environment = tasks.environment(&settings.environment.plain(), &bundle.model_xml)?;
+    let mut environment = Environment::with_tasks(&settings.environment.plain(), &bundle.model_xml, tasks)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut all = Evaluation::default();
     for episode in 0..settings.eval.episodes {

@@ -59,9 +59,10 @@ enum Benchmark {
     /// simulation to its send; it is large if the played actors lack processor time, though learner and routers have
     /// the machine as if the actors ran elsewhere.
     ///
-    /// `checkpoint_ms`: saving the state. `publish_ms`: encoding and announcing the policy, releasing the receipts. `serial_ms`: all work of the
-    /// training thread per update outside the update (time/serial_s). `learner_sent_mb_per_version`: bytes that the
-    /// learner sent over all connections, by the counters of the program `ss`, / policy versions.
+    /// `checkpoint_ms`: saving the state. `publish_ms`: encoding and announcing the policy, releasing the receipts.
+    /// `serial_ms`: all work of the training thread per update outside the update (time/serial_s).
+    /// `learner_sent_mb_per_version`: bytes that the learner sent over all connections, by the counters of the program
+    /// `ss`, / policy versions.
     ///
     /// `nothing_lost`: fragments produced = accepted + dropped by rule + in flight, and all accepted ones but the last
     /// batch were learnt from.

@@ -86,8 +86,8 @@ pub fn environment(
                 .to_string(),
         ));
     }
-    let environment =
-        tasks.environment(&config.environment().without_curricula(), text).map_err(|why| in_file(file, &why))?;
+    let environment = Environment::with_tasks(&config.environment().without_curricula(), text, tasks)
+        .map_err(|why| in_file(file, &why))?;
     if let Some(path) = file {
         check_height(&config.env, environment.nominal_position()[2], path)?;
     }

@@ -96,8 +96,7 @@ pub fn environment(
         ))
         .into());
     }
-    let environment = tasks
-        .environment(&config.environment().without_curricula(), &policy.model_xml)
+    let environment = Environment::with_tasks(&config.environment().without_curricula(), &policy.model_xml, tasks)
         .with_context(|| format!("cannot build the environment of `{run}`"))?;
     let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);

@@ -63,12 +63,11 @@ impl Environment {
         Self::with_tasks(config, model_xml, &TaskRegistry::default())
     }
 
-    /// As [`Self::new`], also for the tasks of a program; see [`TaskRegistry::environment`].
-    pub(crate) fn with_tasks(
-        config: &EnvironmentConfig,
-        model_xml: &str,
-        tasks: &TaskRegistry,
-    ) -> Result<Self, ModelError> {
+    /// As [`Self::new`], also for the tasks of a program.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the model or a setting cannot be simulated, or there is no such task.
+    pub fn with_tasks(config: &EnvironmentConfig, model_xml: &str, tasks: &TaskRegistry) -> Result<Self, ModelError> {
         let mut model = Model::from_mjcf(model_xml)?;
         config.check()?;
         if !config.ground.kinds.is_empty() {

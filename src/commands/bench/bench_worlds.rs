@@ -51,7 +51,7 @@ impl<T: Send> BenchWorlds<T> {
         state: impl Fn(usize) -> T,
     ) -> anyhow::Result<Self> {
         let world = |index| -> anyhow::Result<(BenchWorld, T)> {
-            let environment = tasks.environment(config, model_xml)?;
+            let environment = Environment::with_tasks(config, model_xml, tasks)?;
             let observation = vec![0.0; environment.observation_size()];
             let mut world = BenchWorld { index, environment, resets: 0, faults: 0, observation };
             world.reset();

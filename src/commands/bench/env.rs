@@ -7,7 +7,7 @@ use rand::RngExt;
 use serde_json::{Value, json};
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
 use treadmill_config::Config;
-use treadmill_humanoid::{EnvironmentConfig, TaskRegistry};
+use treadmill_humanoid::{Environment, EnvironmentConfig, TaskRegistry};
 use treadmill_proto::EndCause;
 use treadmill_runtime::{machine, seeds};
 
@@ -90,7 +90,7 @@ impl<'a> Workload<'a> {
         threads: usize,
         rounds: u64,
     ) -> anyhow::Result<Self> {
-        let action_size = tasks.environment(config, model_xml)?.action_size();
+        let action_size = Environment::with_tasks(config, model_xml, tasks)?.action_size();
         let mut random = seeds::stream(1, "bench-actions", &[]);
         let actions = (0..ACTIONS * action_size).map(|_| random.random_range(-1.0..1.0)).collect();
         Ok(Self { tasks, config, model_xml, threads, rounds, action_size, actions })

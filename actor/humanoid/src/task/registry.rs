@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::{HumanoidTask, Task, velocity::VelocityTask};
 use crate::config::{ChosenTask, EnvironmentConfig, is_task_name};
-use crate::environment::Environment;
 use crate::error::ModelError;
 use crate::physics::Physics;
 
@@ -41,14 +40,6 @@ impl TaskRegistry {
     #[must_use]
     pub fn own_names(&self) -> Vec<&'static str> {
         self.own.iter().map(|(name, _)| *name).collect()
-    }
-
-    /// Builds an environment, as [`Environment::new`] does for the built-in tasks alone.
-    ///
-    /// # Errors
-    /// [`ModelError`] if the model or a setting cannot be simulated, or the registry lacks the task.
-    pub fn environment(&self, config: &EnvironmentConfig, model_xml: &str) -> Result<Environment, ModelError> {
-        Environment::with_tasks(config, model_xml, self)
     }
 
     /// Builds the task that a configuration selects.
