@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn help_texts_come_from_the_table() {
         assert_eq!(help("no_such/tag"), "A metric of Treadmill");
-        assert!(help("time/publish_s").ends_with(", including time/checkpoint_s. Unit: s."));
+        assert!(help("train/clip_fraction").ends_with(" ppo.clip_range. Unit: share."));
         assert_eq!(help("rewards/any"), help("rewards/other"));
         assert_eq!(help("actor/envs"), "Its environments. Unit: count.");
     }

@@ -159,7 +159,7 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
 
     let randomisation = RandomisationConfig { push_mps: [0.0, 1.0], ..RandomisationConfig::default() };
     let result = environment(&EnvironmentConfig { randomisation, ..config.clone() }).restore(&snapshot);
-    assert!(result.expect_err("other pushes").to_string().contains("`randomisation`"));
+    assert!(result.expect_err("other pushes").to_string().contains("`randomisation.push_mps`"));
 
     for (from, to, part) in [
         ("gear=\"300\"", "gear=\"301\"", "motor `right_hip_y`"),
