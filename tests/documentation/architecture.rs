@@ -196,6 +196,22 @@ fn ppo_does_not_depend_on_zenoh_and_does_not_name_tokio() {
 }
 
 #[test]
+fn settings_of_ppo_are_named_only_there_and_where_they_are_checked() {
+    // An actor's first horizon depends on the batch.
+    assert_named_only_in(
+        &["config.ppo."],
+        &[
+            "actor/src/settings.rs",
+            "common/config/",
+            "learner/src/intake/horizon_tests.rs",
+            "learner/src/metrics/tensorboard/texts.rs",
+            "learner/tests/",
+            "tests/",
+        ],
+    );
+}
+
+#[test]
 fn the_humanoid_depends_only_on_the_settings_and_not_on_zenoh_tokio_or_candle() {
     let packages = packages();
     for name in all_dependencies(&packages, "treadmill-humanoid") {
