@@ -1,7 +1,6 @@
 //! One humanoid's episodes: reset, step, observation, faults.
 
 mod saved;
-mod snapshot;
 mod vector;
 
 use std::any::Any;
@@ -11,7 +10,6 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
-pub use self::snapshot::EnvironmentSnapshot;
 pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};

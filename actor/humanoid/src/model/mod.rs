@@ -265,25 +265,6 @@ impl Model {
         Ok(())
     }
 
-    /// Returns a description of the first part that differs from another model.
-    pub(crate) fn difference(&self, other: &Self) -> Option<String> {
-        fn changed<T: PartialEq>(kind: &str, ours: &[T], theirs: &[T], name: fn(&T) -> &str) -> Option<String> {
-            if ours.len() != theirs.len() {
-                return Some(format!("{kind} count ({} and {})", ours.len(), theirs.len()));
-            }
-            ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
-        }
-        changed("link", &self.links, &other.links, |link| &link.name)
-            .or_else(|| changed("rigid body", &self.bodies, &other.bodies, |body| &body.name))
-            .or_else(|| changed("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
-            .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))
-            .or_else(|| changed("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
-            .or_else(|| {
-                (self != other)
-                    .then(|| "ground, gravity, solver, root joint, keyframes, card or collision rules".to_owned())
-            })
-    }
-
     /// Returns the index in [`Model::links`] of the link that a shape of a rigid body belongs to.
     #[must_use]
     pub fn link_of_shape(&self, body: usize, shape: usize) -> Option<usize> {

@@ -7,7 +7,6 @@
 
 mod motion;
 mod posed;
-mod snapshot;
 mod state;
 mod variation;
 
@@ -16,7 +15,6 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 
 pub use self::motion::BodyMotion;
-pub use self::snapshot::PhysicsSnapshot;
 use self::variation::VariableModel;
 pub use self::variation::Variation;
 use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS, Structure};

@@ -165,29 +165,6 @@ fn middle(environment: &Environment) -> Vec<f32> {
 }
 
 #[test]
-fn a_snapshot_goes_on_with_the_draws_of_its_own_episode() {
-    let mut environment =
-        environment(&config(VelocityConfig { resampling_s: [0.1, 0.3], ..VelocityConfig::default() }));
-    let action = middle(&environment);
-    let play = |environment: &mut Environment, steps: usize| -> Vec<u32> {
-        let mut observation = vec![0.0; environment.observation_size()];
-        let mut step = |_| {
-            environment.step(&action, &mut observation);
-            observation.iter().map(|number| number.to_bits()).collect::<Vec<_>>()
-        };
-        (0..steps).flat_map(&mut step).collect()
-    };
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(5, &mut observation);
-    play(&mut environment, 8);
-    let snapshot = environment.snapshot();
-    let wanted = play(&mut environment, 20);
-    environment.reset(6, &mut observation);
-    environment.restore(&snapshot).unwrap();
-    assert!(play(&mut environment, 20) == wanted);
-}
-
-#[test]
 fn a_step_is_rewarded_for_the_command_that_the_policy_observed_before_it() {
     let config = config(VelocityConfig { resampling_s: [100.0, 100.0], ..VelocityConfig::default() });
     let (mut steered, mut other) = (environment(&config), environment(&config));
