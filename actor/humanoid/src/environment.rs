@@ -15,7 +15,7 @@ use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
 use crate::model::Model;
-use crate::physics::{JointQuality, Physics};
+use crate::physics::Physics;
 use crate::randomisation::{Randomiser, SensorNoise};
 use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
@@ -337,12 +337,6 @@ impl Environment {
     #[must_use]
     pub fn physics_mut(&mut self) -> &mut Physics {
         &mut self.physics
-    }
-
-    /// Returns the error of the joints after the last step.
-    #[must_use]
-    pub fn joint_quality(&self) -> JointQuality {
-        self.physics.joint_quality()
     }
 }
 

@@ -26,9 +26,6 @@ pub(crate) struct World {
     pub(crate) link_impulses: Vec<Impulse>,
     /// Loaded contact points of the last physics step.
     pub(crate) contacts: Vec<ContactLoad>,
-    /// Largest acceleration (m/s² or rad/s²) by which the last sweep of the constraint solve changed a constraint, over the
-    /// last control step.
-    pub(crate) residual: f64,
     /// Whether the last control step gave a number that is not finite; it then changed nothing else.
     pub(crate) has_failed: bool,
 }
@@ -104,7 +101,6 @@ impl World {
             bodies: vec![body; model.bodies.len()],
             link_impulses: vec![Impulse::default(); model.links.len()],
             contacts: Vec::with_capacity(CONTACTS_EXPECTED),
-            residual: 0.0,
             has_failed: false,
         }
     }

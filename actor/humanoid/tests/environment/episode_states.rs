@@ -15,10 +15,9 @@ fn visible_state(environment: &mut Environment) -> String {
     let physics = environment.physics();
     let wrenches: Vec<_> = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link)).collect();
     format!(
-        "{observation:?} {:?} {:?} {:?} {wrenches:?} {:?} {:?}",
+        "{observation:?} {:?} {:?} {wrenches:?} {:?} {:?}",
         environment.info(),
         environment.episode_state(),
-        environment.joint_quality(),
         physics.body_motions().collect::<Vec<_>>(),
         physics.joint_torques_nm(),
     )

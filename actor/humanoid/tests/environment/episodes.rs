@@ -196,7 +196,7 @@ fn joints_hold_under_maximal_random_torques() {
         let action: [f32; 17] = std::array::from_fn(|_| if random.random() { 0.4 } else { -0.4 });
         let step = environment.step(&action, &mut observation);
         assert!(!step.fault && observation.iter().all(|number| number.is_finite()));
-        overshoots.push(environment.joint_quality().limit_overshoot_rad);
+        overshoots.push(environment.physics().limit_overshoot_rad());
         // In the second half it restarts after each fall; in the first half it flails on the floor.
         if count > 6000 && environment.physics().torso_height_m() < 1.0 {
             environment.reset(count, &mut observation);

@@ -39,7 +39,7 @@ proptest! {
         let spin = root.pose.rotation * Vector3::new(velocity[3], velocity[4], velocity[5]);
         prop_assert!((root.angular_radps - spin).norm() < 1e-12);
         prop_assert!((root.pose.translation.vector - Vector3::from(place)).norm() < 1e-12);
-        prop_assert!(physics.joint_quality().limit_overshoot_rad < 1e-12);
+        prop_assert!(physics.limit_overshoot_rad() < 1e-12);
     }
 }
 

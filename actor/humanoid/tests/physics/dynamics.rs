@@ -318,7 +318,7 @@ fn only_gravity_changes_the_momentum_of_a_flying_body() {
         for step in 1..=60 {
             let controls: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));
             body.step_only(&controls).expect("finite");
-            reached += u32::from(body.joint_quality().limit_overshoot_rad > 0.0);
+            reached += u32::from(body.limit_overshoot_rad() > 0.0);
             let time_s = f64::from(step) * CONTROL_STEP_S;
             let fallen = Vector3::new(0.0, 0.0, -GRAVITY_MPS2 * time_s);
             let (linear_now, angular_now) = momentum(&body);
