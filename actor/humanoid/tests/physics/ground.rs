@@ -1,5 +1,7 @@
 //! Bodies on height fields.
 
+use std::sync::Arc;
+
 use treadmill_humanoid::model::HeightField;
 use treadmill_humanoid::{HUMANOID_XML, Model, Physics};
 
@@ -130,22 +132,25 @@ fn nothing_falls_through_a_rugged_field() {
     }
 }
 
-fn flat(model: &mut Model) {
-    // The bodies stand on edges between its triangles.
-    let field = HeightField::from_fn([9, 9], [6.0, 6.0], nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
-    model.set_height_field(field).expect("valid");
+/// Replaces the plane by a flat field with this many rows and columns.
+fn flatten(model: &mut Model, sides: [usize; 2], halves_m: [f64; 2]) {
+    let field = HeightField::from_fn(sides, halves_m, nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
+    model.ground.height_field = Some(Arc::new(field));
+}
+
+/// Model of a body of 2 kg on the plane.
+fn on_plane(place: &str, shape: &str) -> Model {
+    let text = format!(
+        r#"<mujoco><asset>{MESHES}</asset><worldbody><geom type="plane" size="1 1 1"/><body {place}><freejoint/>
+           <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
+    );
+    Model::from_mjcf(&text).expect("valid")
 }
 
 #[test]
 fn a_flat_field_equals_the_plane() {
     let humanoid = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let pebble = |shape: &str| {
-        Model::from_mjcf(&format!(
-            r#"<mujoco><asset>{MESHES}</asset><worldbody><geom type="plane" size="1 1 1"/><body pos="0.1 0.2 0.2"><freejoint/>
-               <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
-        ))
-        .expect("valid")
-    };
+    let pebble = |shape: &str| on_plane("pos=\"0.1 0.2 0.2\"", shape);
     // Rapier computes in single precision, and a lying cylinder slowly rolls away.
     let tolerance = |shape| if shape == LYING { 0.03 } else { 2e-3 };
     let bodies =
@@ -153,7 +158,8 @@ fn a_flat_field_equals_the_plane() {
     for (name, model, steps, tolerance) in bodies.into_iter().chain([("humanoid", humanoid, 25, 5e-3)]) {
         let mut plane = Physics::new(model.clone(), &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
         let mut field_model = model;
-        flat(&mut field_model);
+        // The bodies stand on edges between its triangles.
+        flatten(&mut field_model, [9, 9], [6.0, 6.0]);
         let mut field = Physics::new(field_model, &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
         let idle = vec![0.0; plane.model().motors.len()];
         let mut touched = 0;
@@ -178,14 +184,9 @@ fn the_points_under_a_foot_span_its_sole() {
     for sides in [[81, 81], [41, 41]] {
         for number in 0..40 {
             let (place, turn) = (0.01 * f64::from(number), 9 * number);
-            let mut model = Model::from_mjcf(&format!(
-                r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="{place} {place} 0.0085" euler="0 0 {turn}">
-                   <freejoint/><geom type="box" size="0.09 0.03 0.008" mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}
-                   </mujoco>"#
-            ))
-            .expect("valid");
-            let field = HeightField::from_fn(sides, [4.0, 4.0], nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
-            model.set_height_field(field).expect("valid");
+            let place = format!(r#"pos="{place} {place} 0.0085" euler="0 0 {turn}""#);
+            let mut model = on_plane(&place, r#"type="box" size="0.09 0.03 0.008""#);
+            flatten(&mut model, sides, [4.0, 4.0]);
             let mut foot = Physics::new(model, &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
             advance(&mut foot, 20, &[0.0]);
             let pose = foot.body_motion(0).pose;
