@@ -219,8 +219,10 @@ fn each_task_has_its_own_info() {
         environment.step(&[0.1; 17], &mut observation);
         assert_eq!(environment.info().unwrap().entries(task).count(), names);
         let (position, centre) = (environment.physics().position(), environment.physics().centre_of_mass());
-        let x_m = if task == EnvTask::HumanoidV5 { position[0] } else { centre.x };
-        assert_eq!(environment.info().unwrap().x_position_m, x_m);
+        let [x_m, y_m] = if task == EnvTask::HumanoidV5 { [position[0], position[1]] } else { [centre.x, centre.y] };
+        let info = environment.info().unwrap();
+        let place = [info.x_position_m, info.y_position_m, info.distance_from_origin_m];
+        assert_eq!(place, [x_m, y_m, x_m.hypot(y_m)]);
         // −1 × hip + 1 × knee, left before right.
         let hinge = |name: &str| {
             let model = environment.physics().model();
@@ -229,10 +231,8 @@ fn each_task_has_its_own_info() {
         };
         for (index, side) in ["left", "right"].into_iter().enumerate() {
             let (hip, knee) = (hinge(&format!("{side}_hip_y")), hinge(&format!("{side}_knee")));
-            assert!((environment.info().unwrap().tendon_length_rad.as_slice()[index] - (knee.0 - hip.0)).abs() < 1e-12);
-            assert!(
-                (environment.info().unwrap().tendon_velocity_radps.as_slice()[index] - (knee.1 - hip.1)).abs() < 1e-12
-            );
+            assert!((info.tendon_length_rad.as_slice()[index] - (knee.0 - hip.0)).abs() < 1e-12);
+            assert!((info.tendon_velocity_radps.as_slice()[index] - (knee.1 - hip.1)).abs() < 1e-12);
         }
     }
 }
