@@ -6,7 +6,6 @@
 //! This module does not depend on rewards or episodes.
 
 mod motion;
-mod posed;
 mod state;
 mod variation;
 
@@ -151,11 +150,8 @@ impl Physics {
 
     /// Updates the motors' torques from controls and state.
     fn update_torques(&mut self) {
-        let World { drives, torques_nm, position, velocity, .. } = &mut self.world;
-        Drive::write(&self.model, &self.controls, drives);
-        for (hinge, (torque_nm, drive)) in torques_nm.iter_mut().zip(&*drives).enumerate() {
-            *torque_nm = drive.torque_at(position[ROOT_POSITIONS + hinge], velocity[ROOT_DOFS + hinge]);
-        }
+        Drive::write(&self.model, &self.controls, &mut self.world.drives);
+        self.world.update_torques();
     }
 
     /// Replaces the contact forces of the last control step, to observe a state of choice.
