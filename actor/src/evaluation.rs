@@ -172,7 +172,7 @@ pub fn evaluate_commanded(
                 agent.rewarded(step.reward);
                 result.return_sum += f64::from(step.reward);
                 result.distance_m = environment.physics().position()[0] - start_x_m;
-                overshoots.push(environment.joint_quality().limit_overshoot_rad);
+                overshoots.push(environment.physics().limit_overshoot_rad());
                 if let (Some(tracker), Some(command)) = (&mut tracker, command) {
                     let sample = TrackingSample::of(environment.physics(), [position[0], position[1]]);
                     let is_pushed = environment.was_pushed();

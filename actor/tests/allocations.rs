@@ -2,47 +2,14 @@
 //!
 //! This test runs alone in its process, because it counts the allocations of the whole process.
 
-use std::{
-    alloc::{GlobalAlloc, Layout, System},
-    sync::atomic::{AtomicU64, Ordering},
-};
+#[path = "../humanoid/tests/counting/mod.rs"]
+mod counting;
 
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
 use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, TaskRegistry};
 use treadmill_runtime::seeds;
 
-struct CountingAllocator;
-
-static COUNT: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: every call goes to the system's allocator unchanged.
-unsafe impl GlobalAlloc for CountingAllocator {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: as above.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: CountingAllocator = CountingAllocator;
-
-fn count_allocations(work: impl FnOnce()) -> u64 {
-    let before = COUNT.load(Ordering::Relaxed);
-    work();
-    COUNT.load(Ordering::Relaxed) - before
-}
+use crate::counting::counted;
 
 const ENVS: usize = 4;
 const EPISODE_STEPS: u32 = 10;
@@ -83,7 +50,7 @@ fn bare_physics() -> u64 {
         }
     };
     play(0..WARM_UP_STEPS);
-    count_allocations(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
 }
 
 fn environments() -> u64 {
@@ -100,7 +67,7 @@ fn environments() -> u64 {
         }
     };
     play(0..WARM_UP_STEPS);
-    count_allocations(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn state(physics: &Physics) -> State {
     State {
         qpos: physics.position().to_vec(),
         qvel: physics.velocity().to_vec(),
-        limit_overshoot_rad: physics.joint_quality().limit_overshoot_rad,
+        limit_overshoot_rad: physics.limit_overshoot_rad(),
         bodies_in_contact: forces.clone().filter(|force_n| *force_n > 0.0).count(),
         contact_force_n: forces.sum(),
     }

@@ -45,19 +45,9 @@ impl From<&EnvironmentConfig> for PhysicsSettings {
 }
 
 impl PhysicsSettings {
-    /// Returns these settings among the defaults of all others.
-    fn among_defaults(self) -> EnvironmentConfig {
-        let Self { control_step_s, substeps, self_collision } = self;
-        EnvConfig { control_step_s, substeps, self_collision, ..EnvConfig::default() }.into()
-    }
-
     /// Rejects durations and counts that cannot be simulated.
     pub(crate) fn check(self) -> Result<(), ConfigError> {
-        self.among_defaults().env.check()
-    }
-
-    /// Returns the first setting that differs from `other`: key, value here, value there.
-    pub(crate) fn difference(self, other: Self) -> Option<(String, String, String)> {
-        self.among_defaults().difference(&other.among_defaults())
+        let Self { control_step_s, substeps, self_collision } = self;
+        EnvConfig { control_step_s, substeps, self_collision, ..EnvConfig::default() }.check()
     }
 }

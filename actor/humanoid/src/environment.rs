@@ -1,7 +1,6 @@
 //! One humanoid's episodes: reset, step, observation, faults.
 
 mod saved;
-mod snapshot;
 mod vector;
 
 use std::any::Any;
@@ -11,13 +10,12 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
-pub use self::snapshot::EnvironmentSnapshot;
 pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
 use crate::model::Model;
-use crate::physics::{JointQuality, Physics};
+use crate::physics::Physics;
 use crate::randomisation::{Randomiser, SensorNoise};
 use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
@@ -338,12 +336,6 @@ impl Environment {
     #[must_use]
     pub fn physics_mut(&mut self) -> &mut Physics {
         &mut self.physics
-    }
-
-    /// Returns the error of the joints after the last step.
-    #[must_use]
-    pub fn joint_quality(&self) -> JointQuality {
-        self.physics.joint_quality()
     }
 }
 

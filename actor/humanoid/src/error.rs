@@ -1,4 +1,4 @@
-//! Errors of models, settings, actions, states and snapshots.
+//! Errors of models, settings, actions and states.
 
 use std::path::PathBuf;
 
@@ -180,33 +180,6 @@ pub enum StateError {
         /// How far beyond its range it may be (rad).
         tolerance_rad: f64,
     },
-}
-
-/// Snapshot of another model or of other settings; the simulation is unchanged.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SnapshotError {
-    /// The models differ.
-    #[error("the snapshot belongs to another model: {part} differs; restore it with the same model text")]
-    Model {
-        /// First part that differs.
-        part: String,
-    },
-    /// A setting differs.
-    #[error(
-        "the snapshot was taken with `{setting}` = {taken}, but here it is {found}; restore it under the same settings"
-    )]
-    Setting {
-        /// Key in [`crate::EnvironmentConfig`].
-        setting: String,
-        /// Value in the snapshot.
-        taken: String,
-        /// Value here.
-        found: String,
-    },
-    /// The task refuses its own state.
-    #[error("the snapshot has no valid state of the task")]
-    Task(#[source] StateError),
 }
 
 impl ModelError {

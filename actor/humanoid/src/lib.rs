@@ -50,12 +50,12 @@ pub use config::{
     EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, PHYSICS_VERSION, PhysicsSettings, RandomisationConfig,
 };
 pub use dynamics::worlds_per_pass;
-pub use environment::{Environment, EnvironmentSnapshot, EpisodeState, VectorEnvironment};
-pub use error::{InputError, ModelError, SnapshotError, StateError};
+pub use environment::{Environment, EpisodeState, VectorEnvironment};
+pub use error::{InputError, ModelError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use mjcf::{HUMANOID_XML, read_model_file};
 pub use model::{Model, mirror::Mirror};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
-pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
+pub use physics::{ContactForce, Physics, PhysicsFault, Variation};
 pub use randomisation::SensorNoise;
 pub use task::{ObservationTerm, StepOutcome, Task, TaskRegistry};

@@ -15,7 +15,6 @@ use crate::model::Model;
 use crate::physics::{Physics, Variation};
 
 /// Noise of the sensors throughout an episode.
-#[derive(Clone)]
 pub struct SensorNoise {
     position_std: f64,
     velocity_std: f64,
@@ -59,7 +58,6 @@ impl SensorNoise {
 }
 
 /// Randomises one environment; draws nothing if nothing is randomised. Only [`Self::new`] allocates.
-#[derive(Clone)]
 pub(crate) struct Randomiser {
     settings: RandomisationConfig,
     control_step_s: f64,

@@ -2,47 +2,13 @@
 //!
 //! The count covers all threads, so this test has a process of its own.
 
-use std::{
-    alloc::{GlobalAlloc, Layout, System},
-    sync::atomic::{AtomicU64, Ordering},
-};
+mod counting;
 
 use treadmill_humanoid::{
     EnvConfig, EnvObservation, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig, Variation,
 };
 
-struct CountingAllocator;
-
-static COUNT: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: every call is passed to the system's allocator unchanged.
-unsafe impl GlobalAlloc for CountingAllocator {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller upholds the same contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: as above.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: CountingAllocator = CountingAllocator;
-
-fn counted(work: impl FnOnce()) -> u64 {
-    let before = COUNT.load(Ordering::Relaxed);
-    work();
-    COUNT.load(Ordering::Relaxed) - before
-}
+use crate::counting::counted;
 
 const STEPS: u64 = 300;
 const SEED: u64 = 3;

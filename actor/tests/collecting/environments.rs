@@ -1,7 +1,7 @@
 //! Results of an environment do not depend on the other environments, nor on the share that it belongs to.
 
-use treadmill_actor::environments::{Environments, SeedSource, StepResults};
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, RandomisationConfig, TaskRegistry, worlds_per_pass};
+use treadmill_actor::environments::{Environments, StepResults};
+use treadmill_humanoid::{EnvironmentConfig, RandomisationConfig, worlds_per_pass};
 use treadmill_proto::{Episode, fragment::TRUNCATED};
 
 use crate::randomised;
@@ -9,9 +9,8 @@ use crate::randomised;
 const STEPS: u64 = 60;
 
 fn environments(count: usize, shares: usize) -> Vec<Environments> {
-    let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 2 };
     let config = randomised(RandomisationConfig::default().motor_scale);
-    Environments::new(count, &TaskRegistry::default(), &config, HUMANOID_XML, seeds).unwrap().split(shares)
+    crate::environments(count, &config, "a", 2).split(shares)
 }
 
 /// Returns an action that depends only on the environment's number and the step. Half of the environments stand still.
@@ -94,9 +93,7 @@ fn shares_are_whole_passes_but_for_the_last() {
 
 #[test]
 fn no_environments_step_without_actions() {
-    let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 2 };
-    let mut none =
-        Environments::new(0, &TaskRegistry::default(), &EnvironmentConfig::default(), HUMANOID_XML, seeds).unwrap();
+    let mut none = crate::environments(0, &EnvironmentConfig::default(), "a", 2);
     let mut results = StepResults::default();
     none.step(&[], &mut results);
     assert!(none.is_empty() && results.rewards.is_empty());

@@ -5,14 +5,29 @@ mod poses;
 mod rollout;
 mod state;
 
-use treadmill_actor::{acting_policy::ActingPolicy, identity::ActorIdentity};
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, RandomisationConfig};
+use treadmill_actor::{
+    acting_policy::ActingPolicy,
+    environments::{Environments, SeedSource},
+    identity::ActorIdentity,
+};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, RandomisationConfig, TaskRegistry};
 use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 use treadmill_runtime::seeds;
 
 fn identity(actor: &str) -> ActorIdentity {
     ActorIdentity { run: "walk".into(), actor: actor.into(), incarnation: 6, config_hash: 5 }
+}
+
+/// Returns humanoids of an actor that has this name and was started this often before.
+fn environments(count: usize, config: &EnvironmentConfig, actor: &str, start: u64) -> Environments {
+    let seeds = SeedSource { run_seed: 1, actor: actor.into(), start };
+    Environments::new(count, &TaskRegistry::default(), config, HUMANOID_XML, seeds).unwrap()
+}
+
+/// Returns a configuration whose episodes last this long.
+fn limited(max_episode_steps: u32) -> EnvironmentConfig {
+    EnvConfig { max_episode_steps, ..EnvConfig::default() }.into()
 }
 
 /// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.

@@ -2,14 +2,14 @@
 
 use tokio::sync::mpsc;
 use treadmill_actor::{
-    environments::{Environments, SeedSource, StepResults},
+    environments::{Environments, StepResults},
     poses::{PoseSampler, stride},
 };
 use treadmill_bus::actor::Watched;
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, TaskRegistry};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model};
 use treadmill_proto::{PolicyVersion, Pose};
 
-use crate::identity;
+use crate::{environments, identity, limited};
 
 const VERSION: PolicyVersion = PolicyVersion::new(3, 4);
 const ENVS: usize = 2;
@@ -24,8 +24,7 @@ struct Recording {
 
 impl Recording {
     fn begin(config: &EnvironmentConfig) -> Self {
-        let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
-        let environments = Environments::new(ENVS, &TaskRegistry::default(), config, HUMANOID_XML, seeds).unwrap();
+        let environments = environments(ENVS, config, "a", 0);
         let watched = Watched::default();
         let (sampler, poses) = PoseSampler::new(watched.clone(), identity("a"));
         Self { environments, results: StepResults::default(), sampler, watched, poses }
@@ -50,8 +49,7 @@ fn moments(poses: &[Pose]) -> Vec<(u64, u32)> {
 
 #[test]
 fn without_observers_nothing_is_recorded() {
-    let mut recording =
-        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 7, ..EnvConfig::default() }));
+    let mut recording = Recording::begin(&limited(7));
     recording.step(20);
     assert!(recording.recorded().is_empty());
     // An observer that subscribes in the middle of the third episode gets the fourth from its start.
@@ -65,8 +63,7 @@ fn without_observers_nothing_is_recorded() {
 
 #[test]
 fn an_episode_is_recorded_whole_and_drained_before_the_next() {
-    let mut recording =
-        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 7, ..EnvConfig::default() }));
+    let mut recording = Recording::begin(&limited(7));
     recording.watched.set(true);
     recording.step(40);
     let whole = |episode| [0, 2, 4, 6].map(|step| (episode, step));
@@ -89,8 +86,7 @@ fn poses_follow_the_control_step() {
 
 #[test]
 fn a_pose_repeats_the_state_of_the_physics() {
-    let mut recording =
-        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 9, ..EnvConfig::default() }));
+    let mut recording = Recording::begin(&limited(9));
     recording.watched.set(true);
     recording.step(13);
     let poses = recording.recorded();

@@ -1,13 +1,10 @@
 //! Saved state of an actor: a process that restores it collects, bit for bit, the next fragments of the original.
 
-use treadmill_actor::{
-    environments::{Environments, SeedSource},
-    rollout::Collector,
-};
-use treadmill_humanoid::{EnvConfig, EnvObservation, EnvironmentConfig, HUMANOID_XML, TaskRegistry};
+use treadmill_actor::{environments::SeedSource, rollout::Collector};
+use treadmill_humanoid::{EnvConfig, EnvObservation, EnvironmentConfig};
 use treadmill_proto::{Fragment, Precision, fragment::TRUNCATED};
 
-use crate::{identity, policy, randomised};
+use crate::{environments, identity, policy, randomised};
 
 /// Returns the collector of an actor process; each `start` draws other random numbers.
 fn collector(
@@ -18,11 +15,8 @@ fn collector(
     start: u64,
     threads: usize,
 ) -> Collector {
-    let seeds = SeedSource { run_seed: 1, actor: name.into(), start };
-    let noise = seeds.noise();
-    let environments = Environments::new(envs, &TaskRegistry::default(), config, HUMANOID_XML, seeds)
-        .unwrap()
-        .with_precision(precision);
+    let noise = SeedSource { run_seed: 1, actor: name.into(), start }.noise();
+    let environments = environments(envs, config, name, start).with_precision(precision);
     let mut collector = Collector::new(environments, noise, identity(name)).with_threads(threads).unwrap();
     collector.attach_state();
     collector

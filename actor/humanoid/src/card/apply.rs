@@ -17,6 +17,10 @@ const PATTERN_BYTES_MAX: usize = 256;
 const NUMBER_MAX: f64 = 1e6;
 const STIFFNESS_MIN: f64 = 1e-6;
 
+fn refuse<T>(problem: String) -> Result<T, ModelError> {
+    Err(ModelError::Card(problem))
+}
+
 impl RobotCard {
     /// Replaces the motors of a model by one servo for each hinge that is not held, in the order of the hinges, and sets
     /// [`Model::robot`].
@@ -24,18 +28,17 @@ impl RobotCard {
     /// # Errors
     /// [`ModelError`] names a body, keyframe, hinge or pattern that the model does not have, or a number that is impossible.
     pub fn apply(&self, model: &mut Model) -> Result<(), ModelError> {
-        let refuse = |problem: String| ModelError::Card(problem);
         if let Some(base) = &self.base
             && *base != model.links[0].name
         {
-            return Err(refuse(format!("`base` is `{base}`, but the free joint belongs to `{}`", model.links[0].name)));
+            return refuse(format!("`base` is `{base}`, but the free joint belongs to `{}`", model.links[0].name));
         }
         let feet: Result<Vec<usize>, ModelError> = self
             .feet
             .iter()
             .map(|foot| {
                 let found = model.links.iter().position(|link| link.name == *foot);
-                found.ok_or_else(|| refuse(format!("`feet`: the model has no body `{foot}`")))
+                found.ok_or_else(|| ModelError::Card(format!("`feet`: the model has no body `{foot}`")))
             })
             .collect();
         self.check_bounds()?;
@@ -58,10 +61,8 @@ impl RobotCard {
                 && hinge.overshoot_rad(angle_rad) > 1e-6
             {
                 let range = format!("{:.4} to {:.4}", hinge.min_rad, hinge.max_rad);
-                return Err(refuse(format!(
-                    "hinge `{}`: `default_rad` is {angle_rad}, outside of its range, {range}",
-                    hinge.name
-                )));
+                let problem = format!("`default_rad` is {angle_rad}, outside of its range, {range}");
+                return refuse(format!("hinge `{}`: {problem}", hinge.name));
             }
             let angle_rad = &mut position[7 + index];
             // Keyframes may be a little outside.
@@ -76,7 +77,7 @@ impl RobotCard {
             robot.hinges.push(control);
         }
         if motors.is_empty() {
-            return Err(refuse("every hinge is held; a policy needs at least one that is not".to_owned()));
+            return refuse("every hinge is held; a policy needs at least one that is not".to_owned());
         }
         // Controls of keyframes belong to the motors of the text.
         model.keyframes.iter_mut().for_each(|key| key.controls = vec![0.0; motors.len()]);
@@ -93,14 +94,13 @@ impl RobotCard {
             ("motors", self.motors.len(), RULES_MAX),
         ] {
             if count > most {
-                return Err(ModelError::Card(format!("{what} has {count} entries, but at most {most} are supported")));
+                return refuse(format!("{what} has {count} entries, but at most {most} are supported"));
             }
         }
         let patterns = self.rules.iter().map(|rule| &rule.names).chain(self.symmetry.iter().flatten());
         match patterns.map(String::len).max() {
             Some(longest) if longest > PATTERN_BYTES_MAX => {
-                let problem = format!("a name has {longest} bytes, but at most {PATTERN_BYTES_MAX} are supported");
-                Err(ModelError::Card(problem))
+                refuse(format!("a name has {longest} bytes, but at most {PATTERN_BYTES_MAX} are supported"))
             }
             _ => Ok(()),
         }
@@ -119,7 +119,7 @@ impl RobotCard {
         };
         if let Some(height_m) = self.height_m {
             if !(height_m.is_finite() && height_m > 0.0) {
-                return Err(ModelError::Card(format!("`height_m` is {height_m}, but must be above 0")));
+                return refuse(format!("`height_m` is {height_m}, but must be above 0"));
             }
             position[2] = height_m;
         }
@@ -135,8 +135,7 @@ impl RobotCard {
             })?;
             for image in std::iter::once(first).chain(of_left) {
                 if !hinges.iter().any(|hinge| hinge.name == image) {
-                    let problem = format!("symmetry [\"{left}\", \"{right}\"]: the model has no hinge `{image}`");
-                    return Err(ModelError::Card(problem));
+                    return refuse(format!("symmetry [\"{left}\", \"{right}\"]: the model has no hinge `{image}`"));
                 }
             }
         }
@@ -147,13 +146,12 @@ impl RobotCard {
     fn check_motors(&self, hinges: &[Hinge]) -> Result<(), ModelError> {
         let named = || self.motors.iter().filter(|name| !name.is_empty());
         if let Some(unknown) = named().find(|name| !hinges.iter().any(|hinge| hinge.name == **name)) {
-            return Err(ModelError::Card(format!("`motors`: the model has no hinge `{unknown}`")));
+            return refuse(format!("`motors`: the model has no hinge `{unknown}`"));
         }
         for hinge in hinges.iter().filter(|_| !self.motors.is_empty()) {
             let count = named().filter(|name| **name == hinge.name).count();
             if count != 1 {
-                let problem = format!("`motors` names hinge `{}` {count} times; name each hinge once", hinge.name);
-                return Err(ModelError::Card(problem));
+                return refuse(format!("`motors` names hinge `{}` {count} times; name each hinge once", hinge.name));
             }
         }
         Ok(())
@@ -182,9 +180,8 @@ impl RobotCard {
             }
             if !is_used {
                 let known: Vec<&str> = hinges.iter().map(|hinge| hinge.name.as_str()).collect();
-                let problem =
-                    format!("names = \"{}\" matches no hinge of the model; it has: {}", rule.names, known.join(", "));
-                return Err(ModelError::Card(problem));
+                let known = known.join(", ");
+                return refuse(format!("names = \"{}\" matches no hinge of the model; it has: {known}", rule.names));
             }
         }
         Ok(merged)
@@ -207,10 +204,7 @@ impl HingeRule {
                     f64::MIN => "-1e6 to 1e6",
                     _ => "above 0, up to 1e6",
                 };
-                return Err(ModelError::Card(format!(
-                    "hinges \"{}\": `{key}` is {value}, but must be {wanted}",
-                    self.names
-                )));
+                return refuse(format!("hinges \"{}\": `{key}` is {value}, but must be {wanted}", self.names));
             }
         }
         Ok(())
@@ -230,15 +224,14 @@ fn control(model: &Model, hinge: usize, rule: &HingeRule) -> Result<HingeControl
     let effort_nm =
         rule.effort_nm.or_else(|| model.effort_nm(hinge)).ok_or_else(|| missing("limit of torque: `effort_nm`"))?;
     if !(kp == 0.0 || (STIFFNESS_MIN..=NUMBER_MAX).contains(&kp)) {
-        return Err(ModelError::Card(format!("hinge `{name}`: `kp` is {kp}, but must be 0, or from 1e-6 to 1e6")));
+        return refuse(format!("hinge `{name}`: `kp` is {kp}, but must be 0, or from 1e-6 to 1e6"));
     }
     if !(effort_nm > 0.0 && effort_nm <= NUMBER_MAX) {
-        return Err(ModelError::Card(format!(
-            "hinge `{name}`: its effort is {effort_nm} N·m; give `effort_nm`, above 0 and up to 1e6"
-        )));
+        let wanted = "give `effort_nm`, above 0 and up to 1e6";
+        return refuse(format!("hinge `{name}`: its effort is {effort_nm} N·m; {wanted}"));
     }
     if rule.action_scale_rad.is_none() && kp == 0.0 {
-        return Err(ModelError::Card(format!("hinge `{name}`: `kp` is 0, so give its `action_scale_rad`")));
+        return refuse(format!("hinge `{name}`: `kp` is 0, so give its `action_scale_rad`"));
     }
     let action_scale_rad = rule.action_scale_rad.unwrap_or(ACTION_SHARE * effort_nm / kp);
     Ok(HingeControl { kp, kd, effort_nm, action_scale_rad, is_held: rule.held.unwrap_or(false) })

@@ -72,7 +72,6 @@ impl<S: Simd> Group<S> {
             for (impulse, sum) in world.link_impulses.iter_mut().zip(&self.impulses) {
                 *impulse = Impulse { linear_ns: sum.force.lane(lane), angular_nms: sum.moment.lane(lane) };
             }
-            world.residual = self.constraints.residual.lane(lane);
             world.contacts.clear();
             let origin_m = self.middle_m.lane(lane);
             for load in &self.loads {

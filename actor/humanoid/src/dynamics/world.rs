@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::model::Model;
 
 /// Contact points that a world has room for from the start; more of them allocate once.
@@ -26,15 +27,12 @@ pub(crate) struct World {
     pub(crate) link_impulses: Vec<Impulse>,
     /// Loaded contact points of the last physics step.
     pub(crate) contacts: Vec<ContactLoad>,
-    /// Largest acceleration (m/s² or rad/s²) by which the last sweep of the constraint solve changed a constraint, over the
-    /// last control step.
-    pub(crate) residual: f64,
     /// Whether the last control step gave a number that is not finite; it then changed nothing else.
     pub(crate) has_failed: bool,
 }
 
 /// Quantities of a model that may differ from world to world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Parameters {
     pub(crate) masses_kg: Vec<f64>,
     pub(crate) inertias_kgm2: Vec<Matrix3<f64>>,
@@ -104,23 +102,24 @@ impl World {
             bodies: vec![body; model.bodies.len()],
             link_impulses: vec![Impulse::default(); model.links.len()],
             contacts: Vec::with_capacity(CONTACTS_EXPECTED),
-            residual: 0.0,
             has_failed: false,
+        }
+    }
+
+    /// Updates the motors' torques from position and velocity.
+    pub(crate) fn update_torques(&mut self) {
+        let rates = self.position[ROOT_POSITIONS..].iter().zip(&self.velocity[ROOT_DOFS..]);
+        for ((torque_nm, drive), (angle, rate)) in self.torques_nm.iter_mut().zip(&self.drives).zip(rates) {
+            *torque_nm = drive.torque_at(*angle, *rate);
         }
     }
 }
 
 impl Parameters {
     fn of(model: &Model) -> Self {
-        Self {
-            masses_kg: model.bodies.iter().map(|body| body.mass_kg).collect(),
-            inertias_kgm2: model.bodies.iter().map(|body| body.inertia_kgm2).collect(),
-            root_centre_m: model.bodies[0].centre_of_mass_m.coords,
-            damping_nmsprad: model.hinges.iter().map(|hinge| hinge.damping_nmsprad).collect(),
-            armature_kgm2: model.hinges.iter().map(|hinge| hinge.armature_kgm2).collect(),
-            friction_scale: 1.0,
-            gravity_mps2: model.gravity_mps2,
-        }
+        let mut parameters = Self::default();
+        parameters.set(model, 1.0);
+        parameters
     }
 
     /// Copies the quantities of another world of the same model; allocates nothing.
@@ -143,16 +142,16 @@ impl Parameters {
         *gravity_mps2 = other.gravity_mps2;
     }
 
-    /// Copies the quantities of a model with the same structure; allocates nothing.
+    /// Copies the quantities of a model; allocates nothing if the last one had the same structure.
     pub(crate) fn set(&mut self, model: &Model, friction_scale: f64) {
-        for (index, body) in model.bodies.iter().enumerate() {
-            self.masses_kg[index] = body.mass_kg;
-            self.inertias_kgm2[index] = body.inertia_kgm2;
+        fn copy<T, O>(target: &mut Vec<T>, objects: &[O], quantity: impl Fn(&O) -> T) {
+            target.clear();
+            target.extend(objects.iter().map(quantity));
         }
-        for (index, hinge) in model.hinges.iter().enumerate() {
-            self.damping_nmsprad[index] = hinge.damping_nmsprad;
-            self.armature_kgm2[index] = hinge.armature_kgm2;
-        }
+        copy(&mut self.masses_kg, &model.bodies, |body| body.mass_kg);
+        copy(&mut self.inertias_kgm2, &model.bodies, |body| body.inertia_kgm2);
+        copy(&mut self.damping_nmsprad, &model.hinges, |hinge| hinge.damping_nmsprad);
+        copy(&mut self.armature_kgm2, &model.hinges, |hinge| hinge.armature_kgm2);
         self.root_centre_m = model.bodies[0].centre_of_mass_m.coords;
         self.friction_scale = friction_scale;
         self.gravity_mps2 = model.gravity_mps2;
@@ -195,7 +194,7 @@ impl Drive {
     }
 
     /// Returns the torque (N·m) at an angle (rad) and rate (rad/s) of the hinge.
-    pub(crate) fn torque_at(&self, angle_rad: f64, rate_radps: f64) -> f64 {
+    fn torque_at(&self, angle_rad: f64, rate_radps: f64) -> f64 {
         (self.torque_nm - self.stiffness_nmprad * angle_rad - self.damping_nmsprad * rate_radps)
             .max(self.min_nm)
             .min(self.max_nm)

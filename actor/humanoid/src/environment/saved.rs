@@ -6,8 +6,7 @@ use super::{Environment, gymnasium_info};
 use crate::error::StateError;
 
 /// State of an episode between two control steps, apart from model and settings.
-///
-/// It holds less than an [`super::EnvironmentSnapshot`]: the seed reproduces what the episode drew at its start.
+/// The seed reproduces what the episode drew at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpisodeState {
     /// Seed of the episode.

@@ -142,16 +142,5 @@ impl<S: Simd> Mul<Lanes<S>> for Vec3<S> {
     }
 }
 
-impl<S: Simd> AddAssign for Vec3<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<S: Simd> SubAssign for Vec3<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+fieldwise!(AddAssign, add_assign, Vec3, x y z);
+fieldwise!(SubAssign, sub_assign, Vec3, x y z);

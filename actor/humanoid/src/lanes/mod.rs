@@ -3,6 +3,18 @@
 //! Every operation acts on each lane by itself, so a world's numbers do not depend on its lane or on its neighbours. `pulp`
 //! selects the widest registers of the machine: AVX-512 (8 lanes), AVX2 (4), NEON (2), or none (1).
 
+/// Implements an operator that acts on each field by itself.
+macro_rules! fieldwise {
+    ($trait:ident, $method:ident, $type:ident, $($field:ident)*) => {
+        impl<S: Simd> $trait for $type<S> {
+            #[inline(always)]
+            fn $method(&mut self, other: Self) {
+                $(self.$field.$method(other.$field);)*
+            }
+        }
+    };
+}
+
 mod linear;
 mod spatial;
 mod trigonometry;

@@ -139,29 +139,9 @@ impl<S: Simd> Inertia<S> {
     }
 }
 
-impl<S: Simd> AddAssign for Motion<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        self.angular += other.angular;
-        self.linear += other.linear;
-    }
-}
-
-impl<S: Simd> AddAssign for Force<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        self.moment += other.moment;
-        self.force += other.force;
-    }
-}
-
-impl<S: Simd> SubAssign for Force<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        self.moment -= other.moment;
-        self.force -= other.force;
-    }
-}
+fieldwise!(AddAssign, add_assign, Motion, angular linear);
+fieldwise!(AddAssign, add_assign, Force, moment force);
+fieldwise!(SubAssign, sub_assign, Force, moment force);
 
 impl<S: Simd> AddAssign for Inertia<S> {
     #[inline(always)]

@@ -47,30 +47,13 @@ impl Floor {
 
     /// Returns the floor of a text without one, with MuJoCo's defaults.
     pub(super) fn added() -> Self {
-        let shape = Shape {
-            name: "floor".to_owned(),
-            geometry: point(),
-            friction: 1.0,
-            has_friction: true,
-            margin_m: 0.0,
-            contype: 1,
-            conaffinity: 1,
-        };
+        let shape = Shape { name: "floor".to_owned(), geometry: point(), friction: 1.0, margin_m: 0.0 };
         Self { shape, rules: ContactRules::default(), height_field: None, body: 0 }
     }
 
     pub(super) fn into_ground(self) -> Ground {
-        let Self { shape, rules, height_field, .. } = self;
-        Ground {
-            friction: shape.friction,
-            has_friction: shape.has_friction,
-            margin_m: shape.margin_m,
-            softness: rules.softness(),
-            contype: shape.contype,
-            conaffinity: shape.conaffinity,
-            name: shape.name,
-            height_field: height_field.map(Arc::new),
-        }
+        let Shape { name, friction, margin_m, .. } = self.shape;
+        Ground { name, friction, margin_m, height_field: self.height_field.map(Arc::new) }
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn collides(geom: &Element, is_paired: bool) -> Result<bool, ModelErr
 }
 
 /// Returns `contype` and `conaffinity`.
-fn bits(geom: &Element) -> Result<[u32; 2], ModelError> {
+pub(super) fn bits(geom: &Element) -> Result<[u32; 2], ModelError> {
     Ok([geom.whole("contype", 1)?, geom.whole("conaffinity", 1)?])
 }
 
@@ -74,16 +74,8 @@ pub(super) fn collision_shape(geom: &Element, geometry: Geometry) -> Result<Shap
     if !(0.0..=MARGIN_MAX_M).contains(&margin_m) {
         return Err(ModelError::quantity(name, "margin (m)", margin_m, "between 0 and 0.01"));
     }
-    let [contype, conaffinity] = bits(geom)?;
-    Ok(Shape {
-        name: name.clone(),
-        geometry,
-        has_friction: has_friction(geom)?,
-        friction: not_negative(name, "friction", geom.number("friction").unwrap_or(1.0))?,
-        margin_m,
-        contype,
-        conaffinity,
-    })
+    let friction = not_negative(name, "friction", geom.number("friction").unwrap_or(1.0))?;
+    Ok(Shape { name: name.clone(), geometry, friction, margin_m })
 }
 
 /// Returns whether contacts of a geom or pair have friction. Torsional and rolling friction, of 4 and 6, are left out.

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::element::Element;
 use super::geoms::{self, MARGIN_MAX_M};
 use crate::error::ModelError;
-use crate::model::{Body, Pair, Shape, ShapeIndex, Softness, SolverNumbers, not_negative};
+use crate::model::{Body, Pair, Shape, ShapeIndex, SolverNumbers, not_negative};
 
 /// Most pairs: they take 15 MB.
 const PAIRS_MAX: usize = 1 << 17;
@@ -21,6 +21,10 @@ pub(super) type Exclusion = [usize; 2];
 /// Contact parameters of one geom.
 #[derive(Clone, Debug)]
 pub(super) struct ContactRules {
+    /// `contype` and `conaffinity`.
+    bits: [u32; 2],
+    /// Whether it has friction by itself: `condim` is 3, not 1.
+    has_friction: bool,
     priority: i32,
     solmix: f64,
     solver: SolverNumbers,
@@ -28,7 +32,7 @@ pub(super) struct ContactRules {
 
 impl Default for ContactRules {
     fn default() -> Self {
-        Self { priority: 0, solmix: 1.0, solver: SolverNumbers::default() }
+        Self { bits: [1, 1], has_friction: true, priority: 0, solmix: 1.0, solver: SolverNumbers::default() }
     }
 }
 
@@ -36,14 +40,12 @@ impl ContactRules {
     /// Reads the attributes that [`Shape`] does not hold.
     pub(super) fn read(geom: &Element) -> Result<Self, ModelError> {
         Ok(Self {
+            bits: geoms::bits(geom)?,
+            has_friction: geoms::has_friction(geom)?,
             priority: geom.whole("priority", 0)?,
             solmix: not_negative(&geom.label, "solmix", geom.number("solmix").unwrap_or(1.0))?,
             solver: geom.softness(["solref", "solimp"])?,
         })
-    }
-
-    pub(super) fn softness(&self) -> Softness {
-        self.solver.softness()
     }
 }
 
@@ -114,22 +116,21 @@ impl<'a> Source<'a> {
             one != other && self.bodies[one].parent != Some(other) && self.bodies[other].parent != Some(one)
         });
         let (one, other) = (self.party(Some(first)), self.party(second));
-        let bits = |shape: &Shape| [shape.contype, shape.conaffinity];
         are_apart
-            && filters_match(bits(one.shape), bits(other.shape))
+            && filters_match(one.rules.bits, other.rules.bits)
             && (excluded.is_empty() || !excluded.contains(&[one.origin, other.origin]))
     }
 
     /// Returns a pair with the contact parameters of its two shapes mixed.
     fn mixed(&self, first: ShapeIndex, second: Option<ShapeIndex>) -> Pair {
         let (one, other) = (self.party(Some(first)), self.party(second));
-        let friction = |party: &Party<'_>| if party.shape.has_friction { party.shape.friction } else { 0.0 };
+        let friction = |party: &Party<'_>| if party.rules.has_friction { party.shape.friction } else { 0.0 };
         let (friction, solver) = match one.rules.priority.cmp(&other.rules.priority) {
             std::cmp::Ordering::Greater => (friction(&one), one.rules.solver),
             std::cmp::Ordering::Less => (friction(&other), other.rules.solver),
             std::cmp::Ordering::Equal => {
                 // The coefficient of a shape without friction counts if the other one has friction.
-                let has_friction = one.shape.has_friction || other.shape.has_friction;
+                let has_friction = one.rules.has_friction || other.rules.has_friction;
                 let friction = if has_friction { one.shape.friction.max(other.shape.friction) } else { 0.0 };
                 (friction, one.rules.solver.mixed(&other.rules.solver, share(one.rules.solmix, other.rules.solmix)))
             }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 
 use super::quantity::length;
-use super::softness::Softness;
 use crate::error::ModelError;
 
 /// Most rows, and most columns, of a height field.
@@ -18,16 +17,8 @@ pub struct Ground {
     pub name: String,
     /// Friction coefficient of its own; contacts have that of their [`super::Pair`].
     pub friction: f64,
-    /// Whether it has friction by itself: MJCF's `condim` is 3, not 1.
-    pub has_friction: bool,
     /// Distance (m) below which the ground pushes; the margins of a pair add up.
     pub margin_m: f64,
-    /// Softness of its own; contacts have that of their [`super::Pair`].
-    pub softness: Softness,
-    /// MJCF's `contype`.
-    pub contype: u32,
-    /// MJCF's `conaffinity`.
-    pub conaffinity: u32,
     /// Surface; `None` is the plane z = 0.
     pub height_field: Option<Arc<HeightField>>,
 }

@@ -14,7 +14,6 @@ mod robot;
 mod softness;
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
@@ -26,7 +25,6 @@ pub(crate) use self::robot::counterpart;
 pub use self::robot::{HingeControl, Robot};
 pub use self::softness::Softness;
 pub(crate) use self::softness::SolverNumbers;
-use crate::error::ModelError;
 
 /// Most tendons; a bound because every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;
@@ -144,14 +142,8 @@ pub struct Shape {
     pub geometry: Geometry,
     /// Friction coefficient of its own; contacts have that of their [`Pair`].
     pub friction: f64,
-    /// Whether it has friction by itself: MJCF's `condim` is 3, not 1.
-    pub has_friction: bool,
     /// Distance (m) below which contacts push; the margins of a pair add up.
     pub margin_m: f64,
-    /// MJCF's `contype`: touches shapes whose `conaffinity` shares a bit.
-    pub contype: u32,
-    /// MJCF's `conaffinity`.
-    pub conaffinity: u32,
 }
 
 /// Free joint of the root: forces that act alike on each of its six degrees of freedom.
@@ -255,35 +247,6 @@ pub struct Keyframe {
 }
 
 impl Model {
-    /// Replaces the surface of the ground. Its friction, softness and pairs remain.
-    ///
-    /// # Errors
-    /// [`ModelError`] if the field's size is out of range or a number is not finite; the model is unchanged.
-    pub fn set_height_field(&mut self, field: HeightField) -> Result<(), ModelError> {
-        field.check()?;
-        self.ground.height_field = Some(Arc::new(field));
-        Ok(())
-    }
-
-    /// Returns a description of the first part that differs from another model.
-    pub(crate) fn difference(&self, other: &Self) -> Option<String> {
-        fn changed<T: PartialEq>(kind: &str, ours: &[T], theirs: &[T], name: fn(&T) -> &str) -> Option<String> {
-            if ours.len() != theirs.len() {
-                return Some(format!("{kind} count ({} and {})", ours.len(), theirs.len()));
-            }
-            ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
-        }
-        changed("link", &self.links, &other.links, |link| &link.name)
-            .or_else(|| changed("rigid body", &self.bodies, &other.bodies, |body| &body.name))
-            .or_else(|| changed("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
-            .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))
-            .or_else(|| changed("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
-            .or_else(|| {
-                (self != other)
-                    .then(|| "ground, gravity, solver, root joint, keyframes, card or collision rules".to_owned())
-            })
-    }
-
     /// Returns the index in [`Model::links`] of the link that a shape of a rigid body belongs to.
     #[must_use]
     pub fn link_of_shape(&self, body: usize, shape: usize) -> Option<usize> {

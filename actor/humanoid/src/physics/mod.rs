@@ -6,8 +6,6 @@
 //! This module does not depend on rewards or episodes.
 
 mod motion;
-mod posed;
-mod snapshot;
 mod state;
 mod variation;
 
@@ -16,7 +14,6 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 
 pub use self::motion::BodyMotion;
-pub use self::snapshot::PhysicsSnapshot;
 use self::variation::VariableModel;
 pub use self::variation::Variation;
 use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS, Structure};
@@ -30,16 +27,6 @@ use crate::model::Model;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the physics state is not finite")]
 pub struct PhysicsFault;
-
-/// Error of the simulation at one moment.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointQuality {
-    /// Largest angle by which a hinge is outside its range (rad).
-    pub limit_overshoot_rad: f64,
-    /// Largest acceleration (m/s² or rad/s²) by which the last iteration of the constraint solve changed a constraint,
-    /// over the last control step.
-    pub residual: f64,
-}
 
 /// Force between two links, or between a link and the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +96,6 @@ impl Physics {
         self.variable.apply_if_due(&mut self.model, &mut self.world.parameters);
         self.world.link_impulses.fill(Impulse::default());
         self.world.contacts.clear();
-        self.world.residual = 0.0;
         self.controls.fill(0.0);
         self.update_torques();
         self.is_faulty = false;
@@ -164,11 +150,8 @@ impl Physics {
 
     /// Updates the motors' torques from controls and state.
     fn update_torques(&mut self) {
-        let World { drives, torques_nm, position, velocity, .. } = &mut self.world;
-        Drive::write(&self.model, &self.controls, drives);
-        for (hinge, (torque_nm, drive)) in torques_nm.iter_mut().zip(&*drives).enumerate() {
-            *torque_nm = drive.torque_at(position[ROOT_POSITIONS + hinge], velocity[ROOT_DOFS + hinge]);
-        }
+        Drive::write(&self.model, &self.controls, &mut self.world.drives);
+        self.world.update_torques();
     }
 
     /// Replaces the contact forces of the last control step, to observe a state of choice.
@@ -346,12 +329,11 @@ impl Physics {
             / self.settings.control_step_s.powi(2)
     }
 
-    /// Returns the present error of the simulation.
+    /// Returns the largest angle by which a hinge is outside its range (rad).
     #[must_use]
-    pub fn joint_quality(&self) -> JointQuality {
-        let overshoots =
-            self.model.hinges.iter().zip(self.joint_angles()).map(|(hinge, angle)| hinge.overshoot_rad(*angle));
-        JointQuality { limit_overshoot_rad: overshoots.fold(0.0, f64::max), residual: self.world.residual }
+    pub fn limit_overshoot_rad(&self) -> f64 {
+        let hinges = self.model.hinges.iter().zip(self.joint_angles());
+        hinges.map(|(hinge, angle)| hinge.overshoot_rad(*angle)).fold(0.0, f64::max)
     }
 
     /// Returns whether a control step received or produced a non-finite number since the last [`Self::set_state`].

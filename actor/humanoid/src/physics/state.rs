@@ -1,8 +1,9 @@
-//! Checks of states that come from outside.
+//! States that come from outside.
 
 use super::Physics;
 use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::config::HINGE_TOLERANCE_RAD;
+use crate::dynamics::{self, World};
 use crate::error::StateError;
 
 /// Accepted norms of the root's quaternion, which is then normalised.
@@ -49,6 +50,17 @@ impl Physics {
         self.world.position.copy_from_slice(position);
         self.world.velocity.copy_from_slice(velocity);
         self.restart();
+    }
+
+    /// Moves `world`, a copy of this simulation's world, to a position and a velocity vector, with the present controls and
+    /// parameters. Allocates nothing.
+    pub(crate) fn pose(&self, world: &mut World, position: &[f64], velocity: &[f64]) {
+        world.parameters.copy_from(&self.world.parameters);
+        world.drives.copy_from_slice(&self.world.drives);
+        world.position.copy_from_slice(position);
+        world.velocity.copy_from_slice(velocity);
+        dynamics::refresh(&self.structure, &self.collision, world);
+        world.update_torques();
     }
 
     /// Checks lengths, finiteness, and the quaternion's norm. Hinges may have any angle, because the limits are soft.

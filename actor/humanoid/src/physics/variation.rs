@@ -1,7 +1,5 @@
 //! Variation of the simulated model.
 
-use std::sync::Arc;
-
 use nalgebra::Vector3;
 
 use crate::dynamics::Parameters;
@@ -88,16 +86,15 @@ impl Variation {
 }
 
 /// Model as it was read, and the variation that takes effect at the next restart.
-#[derive(Clone)]
 pub(super) struct VariableModel {
-    pub(super) nominal: Arc<Model>,
+    nominal: Model,
     variation: Variation,
     is_due: bool,
 }
 
 impl VariableModel {
     pub(super) fn new(model: &Model) -> Self {
-        Self { nominal: Arc::new(model.clone()), variation: Variation::none(model), is_due: false }
+        Self { nominal: model.clone(), variation: Variation::none(model), is_due: false }
     }
 
     /// Sets the variation of the next restart.

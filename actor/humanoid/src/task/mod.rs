@@ -16,9 +16,7 @@ use std::any::Any;
 
 use nalgebra::Point3;
 
-pub use self::humanoid::{
-    HumanoidTask, Transition, contact_cost, control_cost, evaluate_step, health_reward, info_position_m, is_healthy,
-};
+pub use self::humanoid::{HumanoidTask, contact_cost, is_healthy};
 pub use self::registry::{TaskBuilder, TaskRegistry};
 use crate::error::StateError;
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -160,34 +158,20 @@ impl StepEvaluation {
 mod tests {
     use super::*;
 
-    fn evaluation(terminated: bool) -> StepEvaluation {
-        StepEvaluation { reward: 5.0, terminated, truncated: false }
-    }
-
     #[test]
-    fn a_task_can_truncate_and_a_fall_goes_before() {
-        let step = StepEvaluation { truncated: true, ..evaluation(false) }.at(1, 10);
-        assert!(step.truncated && !step.terminated);
-        let step = StepEvaluation { truncated: true, ..evaluation(true) }.at(1, 10);
-        assert!(step.terminated && !step.truncated);
-    }
-
-    #[test]
-    fn the_time_limit_truncates_the_last_step_and_none_before() {
-        assert!(!evaluation(false).at(9, 10).truncated);
-        let last = evaluation(false).at(10, 10);
-        assert!(last.truncated && !last.terminated);
-        assert_eq!(last.reward, 5.0);
-    }
-
-    #[test]
-    fn a_fall_on_the_last_step_terminates_and_does_not_truncate() {
-        let step = evaluation(true).at(10, 10);
-        assert!(step.terminated && !step.truncated);
-    }
-
-    #[test]
-    fn no_time_limit_means_no_truncation() {
-        assert!(!evaluation(false).at(u32::MAX, 0).truncated);
+    fn a_fall_goes_before_every_limit_and_the_last_step_is_truncated() {
+        // Ends by the task, step and greatest number of steps: ends of the outcome.
+        for (terminated, truncated, step, steps_max, ends) in [
+            (false, true, 1, 10, [false, true]),
+            (true, true, 1, 10, [true, false]),
+            (false, false, 9, 10, [false, false]),
+            (false, false, 10, 10, [false, true]),
+            (true, false, 10, 10, [true, false]),
+            (false, false, u32::MAX, 0, [false, false]),
+        ] {
+            let outcome = StepEvaluation { reward: 5.0, terminated, truncated }.at(step, steps_max);
+            assert_eq!([outcome.terminated, outcome.truncated], ends, "{terminated} {truncated} {step} of {steps_max}");
+            assert!(outcome.reward == 5.0 && !outcome.fault);
+        }
     }
 }

@@ -1,21 +1,13 @@
 //! Invalid actions and states are refused by name and change nothing.
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, InputError, Model, Physics, StateError};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, InputError, StateError};
 
-fn environment() -> Environment {
-    Environment::new(&EnvironmentConfig::default(), HUMANOID_XML).expect("valid")
-}
-
-fn physics() -> Physics {
-    Physics::new(Model::from_mjcf(HUMANOID_XML).expect("valid"), &EnvironmentConfig::default()).expect("valid")
-}
+use crate::support::{environment, physics, reset};
 
 #[test]
 fn an_action_that_is_not_finite_is_refused_and_the_episode_continues() {
-    let (mut tried, mut plain) = (environment(), environment());
-    let (mut seen, mut wanted) = (vec![0.0; tried.observation_size()], vec![0.0; tried.observation_size()]);
-    tried.reset(1, &mut seen);
-    plain.reset(1, &mut wanted);
+    let [mut tried, mut plain] = [(); 2].map(|()| environment(&EnvironmentConfig::default()));
+    let (mut seen, mut wanted) = (reset(&mut tried, 1), reset(&mut plain, 1));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut action = [0.1; 17];
         action[11] = bad;
@@ -32,7 +24,7 @@ fn an_action_that_is_not_finite_is_refused_and_the_episode_continues() {
 
 #[test]
 fn wrong_lengths_are_refused_with_the_expected_length() {
-    let mut environment = environment();
+    let mut environment = environment(&EnvironmentConfig::default());
     let size = environment.observation_size();
     let mut seen = vec![0.0; size];
     let action = environment.try_step(&[0.0; 18], &mut seen).expect_err("one too many");
@@ -47,7 +39,7 @@ fn wrong_lengths_are_refused_with_the_expected_length() {
 
 #[test]
 fn impossible_states_are_refused_by_name_and_change_nothing() {
-    let mut physics = physics();
+    let mut physics = physics(HUMANOID_XML);
     let nominal = physics.model().nominal_position();
     physics.step_only(&[0.1; 17]).expect("finite");
     let before = [physics.position(), physics.velocity()].concat();
@@ -84,10 +76,10 @@ fn impossible_states_are_refused_by_name_and_change_nothing() {
 
 #[test]
 fn states_within_the_tolerance_are_set_as_by_set_state() {
-    let (mut tried, mut plain) = (physics(), physics());
+    let (mut tried, mut plain) = (physics(HUMANOID_XML), physics(HUMANOID_XML));
     // In the nominal pose the straight knees are outside their range.
     let mut position = tried.model().nominal_position();
-    assert!(tried.joint_quality().limit_overshoot_rad > 0.03);
+    assert!(tried.limit_overshoot_rad() > 0.03);
     tried.try_set_state(&position, &[0.0; 23]).expect("the nominal pose");
     let hinges = tried.model().hinges.clone();
     for (angle, hinge) in position[7..].iter_mut().zip(&hinges) {

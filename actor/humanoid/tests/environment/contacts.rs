@@ -1,23 +1,16 @@
 //! Contact forces in observations: size, sign, order and reference point.
 
 use nalgebra::{Point3, Vector3};
-use treadmill_humanoid::{
-    ContactForce, EnvConfig, EnvObservation, EnvironmentConfig, HUMANOID_XML, Model, Observation, Physics,
-};
+use treadmill_humanoid::{ContactForce, EnvConfig, EnvObservation, HUMANOID_XML, Model, Observation, Physics};
+
+use crate::support::physics;
 
 const IDLE: [f32; 17] = [0.0; 17];
 
-fn config() -> EnvironmentConfig {
-    EnvironmentConfig::from(EnvConfig { observation: EnvObservation::GymnasiumV5, ..EnvConfig::default() })
-}
-
-fn physics(xml: &str) -> Physics {
-    Physics::new(Model::from_mjcf(xml).expect("valid"), &config()).expect("valid")
-}
-
 /// `cfrc_ext` as rows of moment and force, one per link.
 fn contact_rows(physics: &Physics) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let observation = Observation::new(&config().env, physics.model());
+    let config = EnvConfig { observation: EnvObservation::GymnasiumV5, ..EnvConfig::default() };
+    let observation = Observation::new(&config, physics.model());
     let mut numbers = vec![0.0; observation.size()];
     observation.write(physics, &mut numbers);
     let range = observation.terms().last().expect("cfrc_ext is the last block").range.clone();

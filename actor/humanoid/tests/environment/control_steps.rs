@@ -111,14 +111,6 @@ fn durations_out_of_range_are_refused() {
 }
 
 #[test]
-fn snapshots_do_not_fit_another_control_step() {
-    let mut short = environment(&settings(0.015));
-    reset(&mut short, 1);
-    let refusal = environment(&settings(0.02)).restore(&short.snapshot()).expect_err("another control step");
-    assert!(refusal.to_string().contains("`env.control_step_s` = 0.015, but here it is 0.02"), "{refusal}");
-}
-
-#[test]
 fn a_keyframe_that_the_model_lacks_is_refused_by_name() {
     let config = EnvironmentConfig::from(EnvConfig { keyframe: "squat".into(), ..EnvConfig::default() });
     let error = Environment::new(&config, HUMANOID_XML).err().expect("refused");

@@ -2,19 +2,20 @@
 
 use std::{env, fs, path::Path, process::Command, thread};
 
-use treadmill_humanoid::{EnvConfig, EnvObservation, Environment, EnvironmentConfig, HUMANOID_XML};
+use treadmill_humanoid::{EnvConfig, EnvObservation, Environment, EnvironmentConfig};
+
+use crate::support;
 
 const STEPS: u32 = 500;
 /// File to which the child process of a test writes its checksum.
 const CHECKSUM_FILE: &str = "TREADMILL_TEST_CHECKSUM_FILE";
 
 fn environment() -> Environment {
-    let config = EnvironmentConfig::from(EnvConfig {
+    support::environment(&EnvironmentConfig::from(EnvConfig {
         observation: EnvObservation::GymnasiumV5,
         terminate_when_unhealthy: false,
         ..EnvConfig::default()
-    });
-    Environment::new(&config, HUMANOID_XML).expect("valid")
+    }))
 }
 
 /// Episode that falls and flails on the floor, one step at a time.
@@ -28,8 +29,7 @@ struct Episode {
 
 impl Episode {
     fn begin(mut environment: Environment, seed: u64) -> Self {
-        let mut observation = vec![0.0; environment.observation_size()];
-        environment.reset(seed, &mut observation);
+        let observation = support::reset(&mut environment, seed);
         let mut episode =
             Self { environment, observation, steps: 0, contact_steps: 0, checksum: 0xcbf2_9ce4_8422_2325 };
         episode.add(0.0);

@@ -15,10 +15,9 @@ fn visible_state(environment: &mut Environment) -> String {
     let physics = environment.physics();
     let wrenches: Vec<_> = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link)).collect();
     format!(
-        "{observation:?} {:?} {:?} {:?} {wrenches:?} {:?} {:?}",
+        "{observation:?} {:?} {:?} {wrenches:?} {:?} {:?}",
         environment.info(),
         environment.episode_state(),
-        environment.joint_quality(),
         physics.body_motions().collect::<Vec<_>>(),
         physics.joint_torques_nm(),
     )
@@ -35,6 +34,7 @@ fn an_episode_resumes_from_its_state_bit_for_bit() {
         for at in [0, 2, 60, 150] {
             let mut last = reset(&mut original, 5);
             play(&mut original, 0, at);
+            assert!(at < 150 || original.physics().squared_contact_wrenches() > 0.0, "there are no contacts at {at}");
             let state = original.episode_state().expect("the environment was reset");
             let wanted = play(&mut original, at, at + 250);
 
@@ -63,15 +63,6 @@ fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
     assert_eq!(environment.episode_state(), None);
     environment.resume_episode(&state, &mut observation).expect("of the same build");
     assert_eq!(environment.episode_state(), Some(state));
-}
-
-#[test]
-fn a_snapshot_carries_the_state_of_its_episode() {
-    let (mut original, mut other) = (environment(&randomised()), environment(&randomised()));
-    reset(&mut original, 4);
-    play(&mut original, 0, 30);
-    other.restore(&original.snapshot()).expect("of the same build");
-    assert_eq!(original.episode_state(), other.episode_state());
 }
 
 #[test]

@@ -5,9 +5,10 @@ use std::{collections::BTreeSet, sync::Arc};
 use nalgebra::Point3;
 use treadmill_humanoid::config::{GroundConfig, GroundKind, VelocityConfig};
 use treadmill_humanoid::model::{Geometry, HeightField};
-use treadmill_humanoid::{EnvConfig, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, Physics};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, Physics};
 
-use crate::velocity::{CARD, with_card};
+use crate::support::reset;
+use crate::velocity::{CARD, environment, walking, with_card};
 
 const ALL: [GroundKind; 5] =
     [GroundKind::Flat, GroundKind::Slope, GroundKind::Stairs, GroundKind::Rough, GroundKind::Stones];
@@ -22,27 +23,7 @@ fn fixed(kinds: &[GroundKind], start_level: u32) -> GroundConfig {
 }
 
 fn config(ground: GroundConfig) -> EnvironmentConfig {
-    EnvironmentConfig {
-        env: EnvConfig {
-            task: EnvTask::Velocity,
-            control_step_s: 0.02,
-            substeps: 5,
-            reset_noise_scale: 0.0,
-            ..EnvConfig::default()
-        },
-        ground,
-        ..EnvironmentConfig::default()
-    }
-}
-
-fn environment(config: &EnvironmentConfig) -> Environment {
-    Environment::new(config, &with_card(CARD)).unwrap()
-}
-
-fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(seed, &mut observation);
-    observation
+    EnvironmentConfig { env: walking(0.0), ground, ..EnvironmentConfig::default() }
 }
 
 fn field(environment: &Environment) -> &Arc<HeightField> {
@@ -257,7 +238,7 @@ fn the_scan_shows_the_ground_around_in_the_heading_frame() {
     environment.physics_mut().set_state(&position, &still);
     environment.observe(&mut observation).unwrap();
     assert!(observation[scans[2].range.clone()].iter().all(|height_m| *height_m == -1.0), "clipped");
-    let blind = crate::ground::environment(&config(ground));
+    let blind = crate::velocity::environment(&config(ground));
     assert_eq!(blind.terms().iter().filter(|term| term.name == "height_scan").count(), 1, "the critic's");
 }
 

@@ -13,6 +13,5 @@ mod observations;
 mod physics_version;
 mod randomisation;
 mod sensor_noise;
-mod snapshots;
 mod support;
 mod velocity;

@@ -2,13 +2,12 @@
 
 use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig};
 
-use crate::support::episode_bits;
+use crate::support::{self, episode_bits, randomised};
 
 const SIZE: usize = 45;
 
 fn environment(randomisation: RandomisationConfig) -> Environment {
-    let config = EnvironmentConfig { randomisation, ..EnvironmentConfig::default() };
-    Environment::new(&config, HUMANOID_XML).expect("valid")
+    support::environment(&EnvironmentConfig { randomisation, ..EnvironmentConfig::default() })
 }
 
 /// Environment without gravity, start noise, contacts or end, in which only randomisation acts.
@@ -28,24 +27,7 @@ fn floating(randomisation: RandomisationConfig) -> Environment {
 }
 
 fn everything() -> RandomisationConfig {
-    RandomisationConfig {
-        mass_scale: [0.8, 1.2],
-        floor_friction_scale: [0.5, 1.5],
-        motor_scale: [0.8, 1.2],
-        kp_scale: [0.9, 1.1],
-        kd_scale: [0.9, 1.1],
-        com_offset_m: 0.02,
-        damping_scale: [0.5, 2.0],
-        armature_scale: [0.5, 2.0],
-        gravity_scale: [0.95, 1.05],
-        sensor_noise_position: 0.01,
-        sensor_noise_velocity: 0.1,
-        encoder_bias_rad: 0.0,
-        control_noise: 0.05,
-        action_delay_steps: [0, 3],
-        push_interval_s: [0.1, 0.5],
-        push_mps: [0.1, 1.0],
-    }
+    RandomisationConfig { kp_scale: [0.9, 1.1], kd_scale: [0.9, 1.1], com_offset_m: 0.02, ..randomised().randomisation }
 }
 
 fn first_observation(randomisation: RandomisationConfig, seed: u64) -> [f32; SIZE] {
@@ -61,16 +43,20 @@ fn standard_deviation(samples: &[f64]) -> f64 {
 
 #[test]
 fn an_episode_depends_on_its_seed_only() {
-    let fresh = episode_bits(&mut environment(everything()), 7, 120);
-    let mut used = environment(everything());
-    for (seed, steps) in [(1, 100), (2, 1), (3, 57)] {
-        episode_bits(&mut used, seed, steps);
-    }
-    used.physics_mut().poison();
-    episode_bits(&mut used, 4, 2);
-    assert_eq!(fresh, episode_bits(&mut used, 7, 120));
-    assert_ne!(fresh, episode_bits(&mut used, 8, 120));
-    assert_ne!(fresh, episode_bits(&mut environment(RandomisationConfig::default()), 7, 120));
+    let mut all = [RandomisationConfig::default(), everything()].map(|randomisation| {
+        let fresh = episode_bits(&mut environment(randomisation.clone()), 7, 200);
+        let mut used = environment(randomisation);
+        for (seed, steps) in [(1, 300), (2, 1), (3, 57)] {
+            episode_bits(&mut used, seed, steps);
+        }
+        used.physics_mut().poison();
+        episode_bits(&mut used, 4, 2);
+        assert_eq!(fresh, episode_bits(&mut used, 7, 200));
+        assert_ne!(fresh, episode_bits(&mut used, 8, 200));
+        fresh
+    });
+    all.sort();
+    assert_ne!(all[0], all[1]);
 }
 
 #[test]
@@ -187,15 +173,17 @@ fn delays_are_drawn_from_the_whole_range() {
 }
 
 #[test]
-fn a_bad_action_is_an_immediate_fault_despite_a_delay() {
-    let mut environment =
-        environment(RandomisationConfig { action_delay_steps: [3, 3], ..RandomisationConfig::default() });
+fn a_bad_action_is_a_fault_despite_a_delay_and_repeats_the_last_noisy_observation() {
+    let mut environment = environment(RandomisationConfig { action_delay_steps: [3, 3], ..everything() });
     let mut observation = [0.0; SIZE];
     environment.reset(1, &mut observation);
-    for bad in [f32::INFINITY, f32::NAN] {
+    for bad in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+        environment.step(&[0.1; 17], &mut observation);
+        let last = observation;
         let mut action = [0.0; 17];
         action[4] = bad;
-        assert!(environment.step(&action, &mut observation).fault);
+        let step = environment.step(&action, &mut observation);
+        assert!(step.fault && step.terminated && observation == last, "{bad}");
         assert!(environment.step(&[0.0; 17], &mut observation).fault, "a fault lasts until the reset");
         environment.reset(2, &mut observation);
         assert!(!environment.step(&[0.0; 17], &mut observation).fault);
@@ -239,19 +227,6 @@ fn sensor_noise_has_its_width_and_affects_observations_only() {
 }
 
 #[test]
-fn a_fault_repeats_the_last_noisy_observation() {
-    let mut environment = environment(everything());
-    let mut observation = [0.0; SIZE];
-    environment.reset(5, &mut observation);
-    environment.step(&[0.1; 17], &mut observation);
-    let last = observation;
-    let mut bad = [0.0; 17];
-    bad[0] = f32::NAN;
-    assert!(environment.step(&bad, &mut observation).fault);
-    assert_eq!(observation, last);
-}
-
-#[test]
 fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
     use treadmill_humanoid::EnvObservation::{Compact, GymnasiumV4, GymnasiumV5};
     let noise = RandomisationConfig {
@@ -260,15 +235,9 @@ fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
         ..RandomisationConfig::default()
     };
     let seen = |observation, exclude_current_positions_from_observation, randomisation| {
-        let config = EnvironmentConfig {
-            env: EnvConfig { observation, exclude_current_positions_from_observation, ..EnvConfig::default() },
-            randomisation,
-            ..EnvironmentConfig::default()
-        };
-        let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
-        let mut numbers = vec![0.0; environment.observation_size()];
-        environment.reset(3, &mut numbers);
-        numbers
+        let env = EnvConfig { observation, exclude_current_positions_from_observation, ..EnvConfig::default() };
+        let config = EnvironmentConfig { env, randomisation, ..EnvironmentConfig::default() };
+        support::reset(&mut support::environment(&config), 3)
     };
     let expected = seen(Compact, true, noise.clone());
     for kind in [Compact, GymnasiumV5, GymnasiumV4] {

@@ -6,6 +6,8 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig,
 };
 
+use crate::support::reset;
+
 const NOISE: [f64; 2] = [0.02, 0.3];
 
 /// Built-in model with servos instead of motors, so that torques depend on the hinges' angles and rates.
@@ -34,9 +36,8 @@ fn environment(
 
 /// Plays until feet and trunk have touched the floor. Returns the last observation, and the exact one of the same state.
 fn observed(environment: &mut Environment) -> [Vec<f32>; 2] {
-    let size = environment.observation_size();
-    let (mut seen, mut exact) = (vec![0.0; size], vec![0.0; size]);
-    environment.reset(3, &mut seen);
+    let mut seen = reset(environment, 3);
+    let mut exact = seen.clone();
     for step in 0..40u32 {
         let action: Vec<f32> =
             (0..environment.action_size()).map(|motor| 0.3 * ((step * 29 + motor as u32 * 13) as f32).sin()).collect();

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use treadmill_humanoid::{
-    EnvConfig, EnvObservation, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig,
+    EnvConfig, EnvObservation, Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics, RandomisationConfig,
 };
 
 /// Settings with contact forces in the observation and all randomisation.
@@ -41,6 +41,11 @@ pub fn environment(config: &EnvironmentConfig) -> Environment {
     Environment::new(config, HUMANOID_XML).expect("valid")
 }
 
+/// Physics of a text with the default settings.
+pub fn physics(xml: &str) -> Physics {
+    Physics::new(Model::from_mjcf(xml).expect("valid"), &EnvConfig::default()).expect("valid")
+}
+
 /// Plays steps `from..to` of an episode and returns the bits of all their results.
 pub fn play(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
     let mut observation = vec![0.0; environment.observation_size()];
@@ -66,8 +71,7 @@ pub fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
 /// Bits of all observations and rewards of an episode of random actions, which continues after falls.
 pub fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(seed, &mut observation);
+    let mut observation = reset(environment, seed);
     let mut bits: Vec<u32> = observation.iter().map(|number| number.to_bits()).collect();
     for _ in 0..steps {
         let action: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));

@@ -6,6 +6,8 @@ use treadmill_humanoid::{
     EnvConfig, EnvTask, Environment, EnvironmentConfig, EpisodeState, Mirror, RandomisationConfig,
 };
 
+use crate::support::reset;
+
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
 pub(crate) const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
 /// Three angular velocities, gravity, command, 29 × (angle, rate, action), phase.
@@ -24,32 +26,21 @@ fn config(velocity: VelocityConfig) -> EnvironmentConfig {
         com_offset_m: 0.03,
         ..RandomisationConfig::default()
     };
-    EnvironmentConfig {
-        env: EnvConfig {
-            task: EnvTask::Velocity,
-            control_step_s: 0.02,
-            substeps: 5,
-            reset_noise_scale: 0.02,
-            ..EnvConfig::default()
-        },
-        velocity,
-        randomisation,
-        ..EnvironmentConfig::default()
-    }
+    EnvironmentConfig { env: walking(0.02), velocity, randomisation, ..EnvironmentConfig::default() }
+}
+
+/// Settings of the task in which episodes begin with this noise.
+pub(crate) fn walking(reset_noise_scale: f64) -> EnvConfig {
+    EnvConfig { task: EnvTask::Velocity, control_step_s: 0.02, substeps: 5, reset_noise_scale, ..EnvConfig::default() }
 }
 
 pub(crate) fn with_card(card: &str) -> String {
-    ROBOT_XML.replacen(
-        "</mujoco>",
-        &format!(
-            "<custom><text name=\"treadmill_robot_card\" data=\"{}\"/></custom></mujoco>",
-            card.replace('\n', "&#10;")
-        ),
-        1,
-    )
+    let card = card.replace('\n', "&#10;");
+    let custom = format!("<custom><text name='treadmill_robot_card' data=\"{card}\"/></custom></mujoco>");
+    ROBOT_XML.replacen("</mujoco>", &custom, 1)
 }
 
-fn environment(config: &EnvironmentConfig) -> Environment {
+pub(crate) fn environment(config: &EnvironmentConfig) -> Environment {
     Environment::new(config, &with_card(CARD)).unwrap()
 }
 
@@ -73,12 +64,11 @@ fn the_terms_have_the_fields_names_and_those_of_the_critic_come_last() {
 #[test]
 fn a_history_holds_the_last_observations_and_begins_with_the_first_one() {
     let mut environment = environment(&config(VelocityConfig { history: 3, ..VelocityConfig::default() }));
-    let mut row = vec![0.0; environment.observation_size()];
-    environment.reset(5, &mut row);
+    let mut row = reset(&mut environment, 5);
     let part = |row: &[f32], index: usize| row[index * OF_POLICY..][..OF_POLICY].to_vec();
     assert!(part(&row, 0) == part(&row, 2) && part(&row, 1) == part(&row, 2));
     let first = part(&row, 2);
-    let action = environment.action_ranges().iter().map(|[low, high]| (low + high) / 2.0).collect::<Vec<f32>>();
+    let action = middle(&environment);
     environment.step(&action, &mut row);
     assert!(part(&row, 1) == first && part(&row, 2) != first);
     let second = part(&row, 2);
@@ -92,9 +82,7 @@ fn a_history_holds_the_last_observations_and_begins_with_the_first_one() {
 fn an_episode_goes_on_exactly_from_its_saved_state() {
     let config = config(VelocityConfig { history: 2, resampling_s: [0.1, 0.3], ..VelocityConfig::default() });
     let (mut original, mut other) = (environment(&config), environment(&config));
-    let size = original.observation_size();
-    let (mut left, mut right) = (vec![0.0; size], vec![0.0; size]);
-    original.reset(9, &mut left);
+    let (mut left, mut right) = (reset(&mut original, 9), reset(&mut other, 1));
     let action_at = |step: usize, ranges: &[[f32; 2]]| -> Vec<f32> {
         let share = |motor: usize| 0.05 * ((step * 7 + motor * 3) as f32).sin();
         ranges.iter().enumerate().map(|(motor, [low, high])| (low + high) / 2.0 + (high - low) * share(motor)).collect()
@@ -103,7 +91,6 @@ fn an_episode_goes_on_exactly_from_its_saved_state() {
         original.step(&action_at(step, original.action_ranges().to_vec().as_slice()), &mut left);
     }
     let state: EpisodeState = original.episode_state().unwrap();
-    other.reset(1, &mut right);
     other.resume_episode(&state, &mut right).unwrap();
     assert!(left == right);
     let mut commands = Vec::new();
@@ -130,8 +117,7 @@ fn the_terms_of_a_reward_add_up_to_it() {
         (environment(&velocity), "landing", "feet_slip"),
         (Environment::new(&humanoid, treadmill_humanoid::HUMANOID_XML).unwrap(), "forward", ""),
     ] {
-        let mut row = vec![0.0; environment.observation_size()];
-        environment.reset(3, &mut row);
+        let mut row = reset(&mut environment, 3);
         let action: Vec<f32> = environment.action_ranges().iter().map(|[low, high]| low + 0.6 * (high - low)).collect();
         for step in 0..20 {
             let reward = f64::from(environment.step(&action, &mut row).reward);
@@ -148,13 +134,10 @@ fn the_terms_of_a_reward_add_up_to_it() {
 #[test]
 fn a_steered_robot_is_told_what_the_user_says_until_that_ends() {
     let mut environment = environment(&config(VelocityConfig::default()));
-    let mut row = vec![0.0; environment.observation_size()];
     assert!(environment.steer(Some([0.4, -0.1, 0.2])));
-    environment.reset(3, &mut row);
-    assert_eq!(row[6..9], [0.4, -0.1, 0.2]);
+    assert_eq!(reset(&mut environment, 3)[6..9], [0.4, -0.1, 0.2]);
     assert!(environment.steer(None));
-    environment.reset(3, &mut row);
-    assert_ne!(row[6..9], [0.4, -0.1, 0.2]);
+    assert_ne!(reset(&mut environment, 3)[6..9], [0.4, -0.1, 0.2]);
     let mut humanoid = Environment::new(&EnvironmentConfig::default(), treadmill_humanoid::HUMANOID_XML).unwrap();
     assert!(!humanoid.steer(Some([0.0; 3])), "Gymnasium's task has no commands");
 }
@@ -162,29 +145,6 @@ fn a_steered_robot_is_told_what_the_user_says_until_that_ends() {
 /// Returns the action in the middle of each range.
 fn middle(environment: &Environment) -> Vec<f32> {
     environment.action_ranges().iter().map(|[low, high]| f32::midpoint(*low, *high)).collect()
-}
-
-#[test]
-fn a_snapshot_goes_on_with_the_draws_of_its_own_episode() {
-    let mut environment =
-        environment(&config(VelocityConfig { resampling_s: [0.1, 0.3], ..VelocityConfig::default() }));
-    let action = middle(&environment);
-    let play = |environment: &mut Environment, steps: usize| -> Vec<u32> {
-        let mut observation = vec![0.0; environment.observation_size()];
-        let mut step = |_| {
-            environment.step(&action, &mut observation);
-            observation.iter().map(|number| number.to_bits()).collect::<Vec<_>>()
-        };
-        (0..steps).flat_map(&mut step).collect()
-    };
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(5, &mut observation);
-    play(&mut environment, 8);
-    let snapshot = environment.snapshot();
-    let wanted = play(&mut environment, 20);
-    environment.reset(6, &mut observation);
-    environment.restore(&snapshot).unwrap();
-    assert!(play(&mut environment, 20) == wanted);
 }
 
 #[test]
@@ -223,8 +183,7 @@ fn a_drawn_command_is_a_change_and_a_turning_heading_is_none() {
         ..VelocityConfig::default()
     });
     let mut environment = environment(&config);
-    let mut row = vec![0.0; environment.observation_size()];
-    environment.reset(2, &mut row);
+    let mut row = reset(&mut environment, 2);
     let action = middle(&environment);
     let begin = environment.task().command_changes();
     let mut yaw_rates = vec![environment.task().command().unwrap()[2]];
@@ -240,8 +199,7 @@ fn a_drawn_command_is_a_change_and_a_turning_heading_is_none() {
 #[test]
 fn the_environment_says_which_steps_a_push_began() {
     let mut environment = environment(&config(VelocityConfig { fall_tilt_rad: 3.2, ..VelocityConfig::default() }));
-    let mut row = vec![0.0; environment.observation_size()];
-    environment.reset(2, &mut row);
+    let mut row = reset(&mut environment, 2);
     let action = middle(&environment);
     let pushed: Vec<bool> = (0..60)
         .map(|_| {
@@ -288,8 +246,7 @@ fn the_mirror_image_of_an_observation_is_that_of_the_mirrored_robot() {
     let (mut original, mut image) = (environment(&config), environment(&config));
     let of_body = Mirror::of(original.physics().model()).unwrap();
     let reflection = original.task().mirrored(&of_body).unwrap();
-    let mut row = vec![0.0; original.observation_size()];
-    original.reset(5, &mut row);
+    let mut row = reset(&mut original, 5);
     let action: Vec<f32> = original.action_ranges().iter().map(|[low, high]| low + 0.52 * (high - low)).collect();
     for _ in 0..10 {
         original.step(&action, &mut row);

@@ -2,36 +2,36 @@
 
 use nalgebra::{Matrix3, Point3};
 use treadmill_humanoid::Model;
-use treadmill_humanoid::model::{Geometry, HeightField};
+use treadmill_humanoid::model::Geometry;
 
-use crate::support::{changed, problem};
+use crate::support::{Text, changed};
 
 /// Robot whose root is a mesh of 12 random vertices, above a height field.
-pub const ROCK: &str = r#"
+pub const ROCK: &str = r"
 <mujoco>
-  <default><mesh scale="0.5 0.5 0.5"/></default>
+  <default><mesh scale='0.5 0.5 0.5'/></default>
   <asset>
-    <mesh name="rock" scale="1 1 1" vertex="2.041 -2.556 0.418 -0.568 -0.453 -0.216 -2.02 -0.232 -0.865 3.323 0.226 -0.353
+    <mesh name='rock' scale='1 1 1' vertex='2.041 -2.556 0.418 -0.568 -0.453 -0.216 -2.02 -0.232 -0.865 3.323 0.226 -0.353
       -0.281 -0.668 -1.055 -0.391 0.482 -0.239 0.958 -0.2 0.024 1.546 0.545 -0.505 -0.183 0.541 1.935 -0.27 -0.244 1.002
-      -0.886 -0.292 0.883 0.58 0.092 0.67"/>
-    <mesh name="scaled" refpos="1 0 0" refquat="0.7071067811865476 0 0 0.7071067811865476" scale="2 3 1"
-      vertex="0 0 0  1 0 0  0 2 0  0 0 3  0.1 0.1 0.1"/>
-    <mesh file="unread.stl"/>
-    <hfield name="hill" nrow="2" ncol="3" size="3 2 0.5 0.1" elevation="0 1 2 3 4 7"/>
+      -0.886 -0.292 0.883 0.58 0.092 0.67'/>
+    <mesh name='scaled' refpos='1 0 0' refquat='0.7071067811865476 0 0 0.7071067811865476' scale='2 3 1'
+      vertex='0 0 0  1 0 0  0 2 0  0 0 3  0.1 0.1 0.1'/>
+    <mesh file='unread.stl'/>
+    <hfield name='hill' nrow='2' ncol='3' size='3 2 0.5 0.1' elevation='0 1 2 3 4 7'/>
   </asset>
   <worldbody>
-    <geom name="floor" type="hfield" hfield="hill" pos="1 2 0.3" friction="0.6"/>
-    <body name="base" pos="0 0 9">
+    <geom name='floor' type='hfield' hfield='hill' pos='1 2 0.3' friction='0.6'/>
+    <body name='base' pos='0 0 9'>
       <freejoint/>
-      <geom name="stone" type="mesh" mesh="rock" pos="0.1 0.2 0.3" quat="0.9 0.1 0.2 0.3"/>
-      <body name="arm" pos="5 0 0">
-        <joint name="hinge"/>
-        <geom name="horn" type="mesh" mesh="scaled"/>
+      <geom name='stone' type='mesh' mesh='rock' pos='0.1 0.2 0.3' quat='0.9 0.1 0.2 0.3'/>
+      <body name='arm' pos='5 0 0'>
+        <joint name='hinge'/>
+        <geom name='horn' type='mesh' mesh='scaled'/>
       </body>
     </body>
   </worldbody>
-  <actuator><motor joint="hinge"/></actuator>
-</mujoco>"#;
+  <actuator><motor joint='hinge'/></actuator>
+</mujoco>";
 
 fn assert_mass(model: &Model, body: usize, mass_kg: f64, centre_m: [f64; 3], inertia_kgm2: [[f64; 3]; 3]) {
     let body = &model.bodies[body];
@@ -59,47 +59,44 @@ fn hulls_have_mujocos_mass_and_place() {
 
     let inertia = [[4_050.0, -900.0, 900.0], [-900.0, 5_625.0, -675.0], [900.0, -675.0, 5_625.0]];
     assert_mass(&model, 1, 6_000.0, [1.0, 2.25, 0.75], inertia);
-    let heavy = changed(ROCK, "mesh=\"scaled\"", "mesh=\"scaled\" mass=\"3\"");
+    let heavy = changed(ROCK, "mesh='scaled'", "mesh='scaled' mass='3'");
     let inertia = inertia.map(|row| row.map(|entry| entry / 2000.0));
     assert_mass(&Model::from_mjcf(&heavy).expect("valid"), 1, 3.0, [1.0, 2.25, 0.75], inertia);
 }
 
 #[test]
 fn the_mass_of_a_hull_also_counts_without_contacts() {
-    let text = changed(ROCK, "mesh=\"scaled\"", "mesh=\"scaled\" contype=\"0\" conaffinity=\"0\"");
+    let text = changed(ROCK, "mesh='scaled'", "mesh='scaled' contype='0' conaffinity='0'");
     let model = Model::from_mjcf(&text).expect("valid");
     assert!((model.bodies[1].mass_kg - 6_000.0).abs() < 1e-6 && model.bodies[1].shapes.is_empty());
 }
 
 #[test]
 fn impossible_meshes_are_refused_by_name() {
-    let solid = "vertex=\"0 0 0  1 0 0  0 2 0  0 0 3  0.1 0.1 0.1\"";
-    let many = format!("vertex=\"{}\"", "1 2 3 ".repeat(4097));
-    for (from, to, parts) in [
-        (solid, "vertex=\"0 0 0 1 0 0 0 1 0 1 1 0\"", &["mesh `scaled`", "plane", "thin box"][..]),
-        (solid, "vertex=\"0 0 0 1 0 0 0 1 0\"", &["mesh `scaled`", "vertex", "12 to 12288"]),
-        (solid, "vertex=\"0 0 0 1 0 0 0 1 0 1 1 1 1\"", &["mesh `scaled`", "13 numbers", "three"]),
-        (solid, "vertex=\"0 0 0 1 0 0 0 1 0 0 0 inf\"", &["mesh `scaled`", "vertex", "inf"]),
+    let solid = "vertex='0 0 0  1 0 0  0 2 0  0 0 3  0.1 0.1 0.1'";
+    let many = format!("vertex='{}'", "1 2 3 ".repeat(4097));
+    Text(ROCK).assert_refused(&[
+        (solid, "vertex='0 0 0 1 0 0 0 1 0 1 1 0'", &["mesh `scaled`", "plane", "thin box"]),
+        (solid, "vertex='0 0 0 1 0 0 0 1 0'", &["mesh `scaled`", "vertex", "12 to 12288"]),
+        (solid, "vertex='0 0 0 1 0 0 0 1 0 1 1 1 1'", &["mesh `scaled`", "13 numbers", "three"]),
+        (solid, "vertex='0 0 0 1 0 0 0 1 0 0 0 inf'", &["mesh `scaled`", "vertex", "inf"]),
         (solid, &many, &["mesh `scaled`", "vertex", "12288"]),
-        (solid, "file=\"horn.obj\"", &["horn", "mesh `scaled`", "its file"]),
-        ("scale=\"2 3 1\"", "scale=\"2 3 1e9\"", &["mesh `scaled`", "scale"]),
-        ("scale=\"2 3 1\"", "scale=\"2 3 0\"", &["mesh `scaled`", "plane"]),
-        ("scale=\"2 3 1\"", "inertia=\"shell\"", &["mesh `scaled`", "inertia", "shell"]),
-        ("scale=\"2 3 1\"", "maxhullvert=\"8\"", &["mesh `scaled`", "maxhullvert"]),
-        ("scale=\"2 3 1\"", "face=\"0 1 2\"", &["horn", "faces of mesh `scaled`", "convex"]),
-        ("scale=\"2 3 1\"", "wings=\"2\"", &["mesh `scaled`", "wings"]),
-        ("refquat=\"0.7071067811865476 0 0 0.7071067811865476\"", "refquat=\"0 0 0 0\"", &["scaled", "refquat"]),
-        ("name=\"scaled\"", "name=\"rock\"", &["mesh `rock`", "two of this name"]),
-        ("type=\"mesh\" mesh=\"scaled\"", "type=\"box\" mesh=\"scaled\"", &["horn", "mesh `scaled`"]),
-    ] {
-        let message = problem(&changed(ROCK, from, to));
-        assert!(parts.iter().all(|part| message.contains(part)), "`{to:.60}`: {parts:?} are missing in: {message}");
-    }
+        (solid, "file='horn.obj'", &["horn", "mesh `scaled`", "its file"]),
+        ("scale='2 3 1'", "scale='2 3 1e9'", &["mesh `scaled`", "scale"]),
+        ("scale='2 3 1'", "scale='2 3 0'", &["mesh `scaled`", "plane"]),
+        ("scale='2 3 1'", "inertia='shell'", &["mesh `scaled`", "inertia", "shell"]),
+        ("scale='2 3 1'", "maxhullvert='8'", &["mesh `scaled`", "maxhullvert"]),
+        ("scale='2 3 1'", "face='0 1 2'", &["horn", "faces of mesh `scaled`", "convex"]),
+        ("scale='2 3 1'", "wings='2'", &["mesh `scaled`", "wings"]),
+        ("refquat='0.7071067811865476 0 0 0.7071067811865476'", "refquat='0 0 0 0'", &["scaled", "refquat"]),
+        ("name='scaled'", "name='rock'", &["mesh `rock`", "two of this name"]),
+        ("type='mesh' mesh='scaled'", "type='box' mesh='scaled'", &["horn", "mesh `scaled`"]),
+    ]);
 }
 
 #[test]
 fn height_fields_are_mujocos() {
-    let mut model = Model::from_mjcf(ROCK).expect("valid");
+    let model = Model::from_mjcf(ROCK).expect("valid");
     let field = model.ground.height_field.clone().expect("a height field");
     assert_eq!((field.rows, field.columns, field.half_x_m, field.half_y_m), (2, 3, 3.0, 2.0));
     assert_eq!((field.centre_m, model.ground.friction), (Point3::new(1.0, 2.0, 0.3), 0.6));
@@ -108,40 +105,30 @@ fn height_fields_are_mujocos() {
     assert!(field.heights_m.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-7));
     assert!((field.height_at(-1.999_999, 0.000_001).expect("inside") - 0.3 - wanted[0]).abs() < 1e-5);
 
-    let flat = changed(ROCK, "elevation=\"0 1 2 3 4 7\"", "elevation=\"3 3 3 3 3 3\"");
+    let flat = changed(ROCK, "elevation='0 1 2 3 4 7'", "elevation='3 3 3 3 3 3'");
     let flat = Model::from_mjcf(&flat).expect("valid").ground.height_field.expect("a height field");
     assert_eq!(flat.heights_m, [0.0; 6]);
-    let level = Model::from_mjcf(&changed(ROCK, "elevation=\"0 1 2 3 4 7\"", "")).expect("valid");
+    let level = Model::from_mjcf(&changed(ROCK, "elevation='0 1 2 3 4 7'", "")).expect("valid");
     assert_eq!(level.ground.height_field.as_ref(), Some(&flat));
-
-    let slope = HeightField::from_fn([3, 3], [1.0, 1.0], Point3::origin(), |x, _| 0.1 * x).expect("valid");
-    model.set_height_field(slope.clone()).expect("valid");
-    assert_eq!(model.ground.height_field.as_deref(), Some(&slope));
-    let broken = HeightField { heights_m: vec![0.0; 8], ..slope.clone() };
-    assert!(model.set_height_field(broken).expect_err("eight heights").to_string().contains("one height"));
-    assert_eq!(model.ground.height_field.as_deref(), Some(&slope), "it is unchanged");
 }
 
 #[test]
 fn impossible_height_fields_are_refused_by_name() {
-    for (from, to, parts) in [
-        ("hfield=\"hill\"", "hfield=\"dale\"", &["height field `dale`", "no such"][..]),
-        ("elevation=\"0 1 2 3 4 7\"", "file=\"hill.png\"", &["height field `hill`", "its file", "elevation"]),
-        ("elevation=\"0 1 2 3 4 7\"", "elevation=\"0 1 2 3 4\"", &["height field `hill`", "5 numbers", "2 × 3"]),
-        ("elevation=\"0 ", "elevation=\"nan ", &["height field `hill`", "elevation"]),
-        ("nrow=\"2\"", "nrow=\"1\"", &["height field `hill`", "nrow", "from 2 to 1024"]),
-        ("ncol=\"3\"", "ncol=\"2000\"", &["height field `hill`", "ncol", "from 2 to 1024"]),
-        ("ncol=\"3\"", "ncol=\"2.5\"", &["height field `hill`", "ncol", "whole"]),
-        ("size=\"3 2 0.5 0.1\"", "size=\"3 2 -0.5 0.1\"", &["height field `hill`", "greatest height"]),
-        ("size=\"3 2 0.5 0.1\"", "size=\"3 2 0.5\"", &["height field `hill`", "size", "4 finite"]),
-        ("pos=\"1 2 0.3\"", "pos=\"1 2 0.3\" euler=\"0 0 30\"", &["floor", "not turned"]),
+    Text(ROCK).assert_refused(&[
+        ("hfield='hill'", "hfield='dale'", &["height field `dale`", "no such"]),
+        ("elevation='0 1 2 3 4 7'", "file='hill.png'", &["height field `hill`", "its file", "elevation"]),
+        ("elevation='0 1 2 3 4 7'", "elevation='0 1 2 3 4'", &["height field `hill`", "5 numbers", "2 × 3"]),
+        ("elevation='0 ", "elevation='nan ", &["height field `hill`", "elevation"]),
+        ("nrow='2'", "nrow='1'", &["height field `hill`", "nrow", "from 2 to 1024"]),
+        ("ncol='3'", "ncol='2000'", &["height field `hill`", "ncol", "from 2 to 1024"]),
+        ("ncol='3'", "ncol='2.5'", &["height field `hill`", "ncol", "whole"]),
+        ("size='3 2 0.5 0.1'", "size='3 2 -0.5 0.1'", &["height field `hill`", "greatest height"]),
+        ("size='3 2 0.5 0.1'", "size='3 2 0.5'", &["height field `hill`", "size", "4 finite"]),
+        ("pos='1 2 0.3'", "pos='1 2 0.3' euler='0 0 30'", &["floor", "not turned"]),
         (
-            "<body name=\"base\"",
-            "<geom name=\"plate\" type=\"plane\" size=\"1 1 1\"/><body name=\"base\"",
+            "<body name='base'",
+            "<geom name='plate' type='plane' size='1 1 1'/><body name='base'",
             &["plate", "one floor"],
         ),
-    ] {
-        let message = problem(&changed(ROCK, from, to));
-        assert!(parts.iter().all(|part| message.contains(part)), "`{to}`: {parts:?} are missing in: {message}");
-    }
+    ]);
 }

@@ -6,41 +6,41 @@ use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Mirror, Mode
 use crate::support::changed;
 
 /// Trunk with two legs of two hinges, of which only one has a servo.
-const LEGS: &str = r#"<mujoco><compiler angle="radian"/><worldbody>
-  <body name="trunk" pos="0 0 1"><freejoint/><geom name="chest" type="box" size="0.1 0.2 0.2" mass="5"/>
-    <body name="left_leg" pos="0 0.1 -0.2"><joint name="left_hip" axis="0 1 0" range="-1 1" actuatorfrcrange="-60 60"/>
-      <joint name="left_knee" axis="0 1 0" pos="0 0 -0.4" range="0 2" armature="0.02"/>
-      <geom name="left_sole" type="capsule" fromto="0 0 0 0 0 -0.7" size="0.05" mass="2"/></body>
-    <body name="right_leg" pos="0 -0.1 -0.2"><joint name="right_hip" axis="0 1 0" range="-1 1" actuatorfrcrange="-60 60"/>
-      <joint name="right_knee" axis="0 1 0" pos="0 0 -0.4" range="0 2" armature="0.02"/>
-      <geom name="right_sole" type="capsule" fromto="0 0 0 0 0 -0.7" size="0.05" mass="2"/></body>
+const LEGS: &str = r"<mujoco><compiler angle='radian'/><worldbody>
+  <body name='trunk' pos='0 0 1'><freejoint/><geom name='chest' type='box' size='0.1 0.2 0.2' mass='5'/>
+    <body name='left_leg' pos='0 0.1 -0.2'><joint name='left_hip' axis='0 1 0' range='-1 1' actuatorfrcrange='-60 60'/>
+      <joint name='left_knee' axis='0 1 0' pos='0 0 -0.4' range='0 2' armature='0.02'/>
+      <geom name='left_sole' type='capsule' fromto='0 0 0 0 0 -0.7' size='0.05' mass='2'/></body>
+    <body name='right_leg' pos='0 -0.1 -0.2'><joint name='right_hip' axis='0 1 0' range='-1 1' actuatorfrcrange='-60 60'/>
+      <joint name='right_knee' axis='0 1 0' pos='0 0 -0.4' range='0 2' armature='0.02'/>
+      <geom name='right_sole' type='capsule' fromto='0 0 0 0 0 -0.7' size='0.05' mass='2'/></body>
   </body></worldbody>
-  <actuator><position name="servo" joint="left_hip" kp="30" kv="3" gear="2" forcerange="-10 10" ctrlrange="-1 1"/></actuator>
-  <keyframe><key name="crouch" qpos="0 0 0.9 1 0 0 0 -0.3 0.6 -0.3 0.6" ctrl="0.1"/></keyframe></mujoco>"#;
+  <actuator><position name='servo' joint='left_hip' kp='30' kv='3' gear='2' forcerange='-10 10' ctrlrange='-1 1'/></actuator>
+  <keyframe><key name='crouch' qpos='0 0 0.9 1 0 0 0 -0.3 0.6 -0.3 0.6' ctrl='0.1'/></keyframe></mujoco>";
 
-const CARD: &str = r#"
-model = "legs.xml"
-base = "trunk"
-feet = ["left_leg", "right_leg"]
-keyframe = "crouch"
+const CARD: &str = r"
+model = 'legs.xml'
+base = 'trunk'
+feet = ['left_leg', 'right_leg']
+keyframe = 'crouch'
 height_m = 0.95
 
 [[hinges]]
-names = "*"
+names = '*'
 kp = 80.0
 kd = 4.0
 
 [[hinges]]
-names = "*_knee"
+names = '*_knee'
 kp = 100.0
 effort_nm = 90.0
 armature_kgm2 = 0.01
 action_scale_rad = 0.5
 
 [[hinges]]
-names = "right_knee"
+names = 'right_knee'
 default_rad = 0.7
-"#;
+";
 
 fn applied(text: &str, card: &str) -> Result<Model, String> {
     let mut model = Model::without_motors(text).expect("valid");
@@ -107,7 +107,7 @@ fn read(card: &str) -> Result<String, String> {
 fn a_card_travels_in_the_text_of_its_model() {
     let from_text = Model::from_mjcf(&text_with(CARD)).expect("valid");
     assert_eq!(format!("{from_text:?}"), format!("{:?}", applied(LEGS, CARD).expect("it fits")));
-    let alone = read(&changed(CARD, "model = \"legs.xml\"", "")).expect_err("no file");
+    let alone = read(&changed(CARD, "model = 'legs.xml'", "")).expect_err("no file");
     assert!(alone.contains("`model`") && alone.contains("missing"), "{alone}");
     let itself = read(&changed(CARD, "legs.xml", "card.toml")).expect_err("no MJCF file");
     assert!(itself.contains("card.toml") && itself.contains("MJCF"), "{itself}");
@@ -149,14 +149,14 @@ fn names_of_the_sides_give_the_mirror_image() {
     let (text, card) = (renamed(LEGS, "LL_", "LR_"), renamed(CARD, "LL_", "LR_"));
     let why = Mirror::of(&applied(&text, &card).expect("it fits")).expect_err("unknown names");
     assert!(why.contains("LL_hip"), "{why}");
-    let card = changed(&card, "height_m", "symmetry = [[\"LL_*\", \"LR_*\"]]\nheight_m");
+    let card = changed(&card, "height_m", "symmetry = [['LL_*', 'LR_*']]\nheight_m");
     let model = applied(&text, &card).expect("it fits");
     assert_eq!(Mirror::of(&model).expect("by the card").position[7..], [(9, 1.0), (10, 1.0), (7, 1.0), (8, 1.0)]);
 }
 
 #[test]
 fn a_card_says_how_the_robots_software_numbers_its_motors() {
-    let order = "motors = [\"right_knee\", \"left_knee\", \"\", \"right_hip\", \"left_hip\"]\nheight_m";
+    let order = "motors = ['right_knee', 'left_knee', '', 'right_hip', 'left_hip']\nheight_m";
     let robot = applied(LEGS, &changed(CARD, "height_m", order)).expect("it fits").robot.expect("it has a card");
     assert_eq!([robot.motor_number("left_hip"), robot.motor_number("left_knee")], [Some(4), Some(1)]);
     let robot = applied(LEGS, CARD).expect("it fits").robot.expect("it has a card");
@@ -166,11 +166,11 @@ fn a_card_says_how_the_robots_software_numbers_its_motors() {
 #[test]
 fn mistakes_in_a_card_are_named() {
     for (from, to, parts) in [
-        ("names = \"*_knee\"", "names = \"*_ankle\"", &["*_ankle", "no hinge", "left_hip"][..]),
-        ("names = \"right_knee\"", "names = \"right_kne\"", &["right_kne", "right_knee"]),
-        ("base = \"trunk\"", "base = \"torso\"", &["`base`", "torso", "trunk"]),
-        ("\"right_leg\"", "\"right_foot\"", &["`feet`", "right_foot"]),
-        ("\"crouch\"", "\"stand\"", &["keyframe `stand`", "crouch"]),
+        ("names = '*_knee'", "names = '*_ankle'", &["*_ankle", "no hinge", "left_hip"][..]),
+        ("names = 'right_knee'", "names = 'right_kne'", &["right_kne", "right_knee"]),
+        ("base = 'trunk'", "base = 'torso'", &["`base`", "torso", "trunk"]),
+        ("'right_leg'", "'right_foot'", &["`feet`", "right_foot"]),
+        ("'crouch'", "'stand'", &["keyframe `stand`", "crouch"]),
         ("height_m = 0.95", "height_m = -1.0", &["height_m", "-1"]),
         ("height_m = 0.95", "height_m = inf", &["height_m", "inf"]),
         ("default_rad = 0.7", "default_rad = 2.5", &["right_knee", "default_rad", "2.5", "0.0000 to 2.0000"]),
@@ -178,19 +178,19 @@ fn mistakes_in_a_card_are_named() {
         ("kp = 80.0", "kp = -80.0", &["kp", "-80"]),
         ("kp = 80.0", "kp = 1e-9", &["kp", "1e-6"]),
         ("kp = 80.0", "kp = 2e6", &["kp", "2000000", "1e6"]),
-        ("names = \"*\"", &format!("names = \"*{}\"", "a".repeat(256)), &["257 bytes", "256"]),
+        ("names = '*'", &format!("names = '*{}'", "a".repeat(256)), &["257 bytes", "256"]),
         ("kp = 80.0\n", "", &["right_hip", "kp"]),
         ("effort_nm = 90.0\n", "", &["left_knee", "effort_nm"]),
         ("effort_nm = 90.0", "effort_nm = 0.0", &["*_knee", "effort_nm", "0"]),
         ("kp = 100.0", "kp = 0.0\nhelt = true", &["helt"]),
         ("action_scale_rad = 0.5", "kp_max = 1", &["kp_max"]),
-        ("kp = 80.0", "kp = \"high\"", &["kp"]),
+        ("kp = 80.0", "kp = 'high'", &["kp"]),
         ("kp = 80.0", "held = true\nkp = 80.0", &["every hinge is held"]),
-        ("height_m", "symmetry = [[\"up_*\", \"down_*\"]]\nheight_m", &["symmetry", "up_*"]),
-        ("height_m", "symmetry = [[\"left_*\", \"down_*\"]]\nheight_m", &["symmetry", "down_hip"]),
-        ("height_m", "motors = [\"left_hop\"]\nheight_m", &["motors", "left_hop"]),
-        ("height_m", "motors = [\"left_hip\", \"\", \"left_hip\"]\nheight_m", &["motors", "`left_hip` 2 times"]),
-        ("height_m", "motors = [\"left_hip\"]\nheight_m", &["motors", "`left_knee` 0 times"]),
+        ("height_m", "symmetry = [['up_*', 'down_*']]\nheight_m", &["symmetry", "up_*"]),
+        ("height_m", "symmetry = [['left_*', 'down_*']]\nheight_m", &["symmetry", "down_hip"]),
+        ("height_m", "motors = ['left_hop']\nheight_m", &["motors", "left_hop"]),
+        ("height_m", "motors = ['left_hip', '', 'left_hip']\nheight_m", &["motors", "`left_hip` 2 times"]),
+        ("height_m", "motors = ['left_hip']\nheight_m", &["motors", "`left_knee` 0 times"]),
     ] {
         let why = applied(LEGS, &changed(CARD, from, to)).expect_err(to);
         assert!(parts.iter().all(|part| why.contains(part)), "`{to}`: {parts:?} are missing in: {why}");

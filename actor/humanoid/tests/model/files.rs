@@ -38,18 +38,15 @@ fn included_files_are_inserted() {
     let write = |name: &str, text: &str| folder.write(name, text);
     let (before, worldbody) = HUMANOID_XML.split_once("<worldbody>").expect("a worldbody");
     let (worldbody, motors) = worldbody.split_once("</worldbody>").expect("its end");
-    write("robot.xml", &format!("{before}<include file=\"parts/world.xml\"/>{motors}"));
+    write("robot.xml", &format!("{before}<include file='parts/world.xml'/>{motors}"));
     // Paths are relative to the outermost file.
-    write(
-        "parts/world.xml",
-        "<mujocoinclude><worldbody><include file=\"parts/body.xml\"/></worldbody></mujocoinclude>",
-    );
+    write("parts/world.xml", "<mujocoinclude><worldbody><include file='parts/body.xml'/></worldbody></mujocoinclude>");
     write("parts/body.xml", &format!("<mujoco>{worldbody}</mujoco>"));
     let read = || folder.read("robot.xml");
     let model = Model::from_mjcf(&read().expect("all there")).expect("valid");
     assert_eq!(format!("{model:?}"), format!("{:?}", Model::from_mjcf(HUMANOID_XML).expect("valid")));
 
-    write("parts/body.xml", "<mujoco><include file=\"robot.xml\"/></mujoco>");
+    write("parts/body.xml", "<mujoco><include file='robot.xml'/></mujoco>");
     assert!(read().expect_err("a circle").contains("`robot.xml` is included twice"));
     std::fs::remove_file(folder.0.join("parts/body.xml")).expect("it exists");
     assert!(read().expect_err("missing").contains("parts/body.xml"));
@@ -89,19 +86,19 @@ fn obj(points: &[[f32; 3]]) -> String {
     vertices.chain(faces).collect()
 }
 
-const ROBOT: &str = r#"<mujoco><compiler meshdir="parts" assetdir="unused"/>
-  <default><mesh scale="0.1 0.1 0.1"/>
-    <default class="visual"><geom type="mesh" contype="0" conaffinity="0" density="0"/></default>
-    <default class="solid"><geom type="mesh"/></default></default>
-  <asset><mesh file="skull.stl"/><mesh name="shell" file="missing.obj"/><mesh name="foot" file="sole.OBJ" scale="0.2 0.1 0.1"/>
-    <hfield name="hill" file="hill.png" size="3 2 0.5 0.1"/></asset>
-  <worldbody><geom name="floor" type="hfield" hfield="hill"/>
-    <body name="head" pos="0 0 5"><freejoint/><inertial pos="0 0 0" mass="3" diaginertia="0.1 0.1 0.1"/>
-      <geom class="visual" mesh="shell"/><geom name="skull" class="solid" mesh="skull"/>
-      <body name="leg"><joint name="neck"/><inertial pos="0 0 0" mass="1" diaginertia="0.1 0.1 0.1"/>
-        <geom class="visual" name="foot" mesh="foot"/></body></body></worldbody>
-  <contact><pair geom1="foot" geom2="floor"/></contact>
-  <actuator><motor joint="neck"/></actuator></mujoco>"#;
+const ROBOT: &str = r"<mujoco><compiler meshdir='parts' assetdir='unused'/>
+  <default><mesh scale='0.1 0.1 0.1'/>
+    <default class='visual'><geom type='mesh' contype='0' conaffinity='0' density='0'/></default>
+    <default class='solid'><geom type='mesh'/></default></default>
+  <asset><mesh file='skull.stl'/><mesh name='shell' file='missing.obj'/><mesh name='foot' file='sole.OBJ' scale='0.2 0.1 0.1'/>
+    <hfield name='hill' file='hill.png' size='3 2 0.5 0.1'/></asset>
+  <worldbody><geom name='floor' type='hfield' hfield='hill'/>
+    <body name='head' pos='0 0 5'><freejoint/><inertial pos='0 0 0' mass='3' diaginertia='0.1 0.1 0.1'/>
+      <geom class='visual' mesh='shell'/><geom name='skull' class='solid' mesh='skull'/>
+      <body name='leg'><joint name='neck'/><inertial pos='0 0 0' mass='1' diaginertia='0.1 0.1 0.1'/>
+        <geom class='visual' name='foot' mesh='foot'/></body></body></worldbody>
+  <contact><pair geom1='foot' geom2='floor'/></contact>
+  <actuator><motor joint='neck'/></actuator></mujoco>";
 
 /// Folder with all files of [`ROBOT`] that its motion depends on.
 fn robot(name: &str) -> Folder {
@@ -194,7 +191,7 @@ fn files_that_cannot_be_used_are_named() {
     let problem = with("sole.OBJ", "gone.obj").expect_err("missing");
     assert!(problem.contains(Path::new("parts").join("gone.obj").to_str().expect("text")), "{problem}");
     // Without an <inertial> the mass would be that of the faces.
-    let text = with("<inertial pos=\"0 0 0\" mass=\"3\" diaginertia=\"0.1 0.1 0.1\"/>", "").expect("readable");
+    let text = with("<inertial pos='0 0 0' mass='3' diaginertia='0.1 0.1 0.1'/>", "").expect("readable");
     let problem = Model::from_mjcf(&text).expect_err("unknown mass").to_string();
     assert!(problem.contains("faces of mesh `skull`") && problem.contains("<inertial>"), "{problem}");
 }

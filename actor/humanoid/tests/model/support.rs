@@ -16,3 +16,17 @@ pub fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "there is no {from}");
     text.replacen(from, to, 1)
 }
+
+/// Model text that other tests change.
+pub struct Text(pub &'static str);
+
+impl Text {
+    /// Asserts that each change of the text is refused with a message that contains all parts.
+    pub fn assert_refused(&self, cases: &[(&str, &str, &[&str])]) {
+        assert!(Model::from_mjcf(self.0).is_ok());
+        for (from, to, parts) in cases {
+            let message = problem(&changed(self.0, from, to));
+            assert!(parts.iter().all(|part| message.contains(part)), "`{to:.60}`: {parts:?} are missing in: {message}");
+        }
+    }
+}

@@ -8,57 +8,57 @@ const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
 const G1_LIKE_SERVOS_XML: &str = include_str!("../../assets/g1-like-servos.xml");
 
 /// Text with classes, frames, all kinds of orientation, all shapes and both kinds of inertia.
-const ODD: &str = r#"
-<mujoco model="odd">
-  <compiler angle="radian" eulerseq="zyx" inertiagrouprange="0 3" balanceinertia="true"/>
-  <default class="main">
-    <geom pos="0 0 0.1" density="500" friction="0.7"/>
-    <joint damping="2"/>
-    <default class="turned">
-      <geom quat="0.5 0.5 0.5 0.5" size="0.1 0.05 0.02"/>
-      <default class="case"><geom type="box" mass="0.3"/></default>
+const ODD: &str = r"
+<mujoco model='odd'>
+  <compiler angle='radian' eulerseq='zyx' inertiagrouprange='0 3' balanceinertia='true'/>
+  <default class='main'>
+    <geom pos='0 0 0.1' density='500' friction='0.7'/>
+    <joint damping='2'/>
+    <default class='turned'>
+      <geom quat='0.5 0.5 0.5 0.5' size='0.1 0.05 0.02'/>
+      <default class='case'><geom type='box' mass='0.3'/></default>
     </default>
-    <position kp="50" kv="2" ctrlrange="-1 0.5"/>
+    <position kp='50' kv='2' ctrlrange='-1 0.5'/>
   </default>
   <worldbody>
-    <geom name="floor" type="plane" size="5 5 0.1" pos="0 0 0"/>
-    <body name="base" pos="0.1 0.2 1" euler="0.3 0.2 0.1" childclass="turned">
+    <geom name='floor' type='plane' size='5 5 0.1' pos='0 0 0'/>
+    <body name='base' pos='0.1 0.2 1' euler='0.3 0.2 0.1' childclass='turned'>
       <freejoint/>
-      <geom type="box"/>
-      <geom type="ellipsoid" contype="0" conaffinity="0" pos="0 0.3 0" size="0.2"/>
-      <geom type="cylinder" class="main" pos="0 0 0" fromto="0 0 -0.1 0.1 0.2 -0.4" size="0.03" mass="0.7"/>
-      <geom type="box" class="main" pos="0 0 0" fromto="0 0.1 -0.1 0.1 0.2 -0.4" size="0.03"/>
-      <geom type="ellipsoid" class="main" pos="0 0 0" fromto="0 0.1 0.1 0.1 0.2 -0.4" size="0.03"
-            contype="0" conaffinity="0"/>
-      <geom class="case" group="4" mass="100" contype="0" conaffinity="0"/>
-      <frame pos="0.5 0 0" zaxis="1 0 1">
-        <geom class="case"/>
-        <body name="pod" pos="0 0.2 0" xyaxes="0 1 0 -1 0 0.2">
-          <geom class="main" type="sphere" size="0.07"/>
-          <body name="tip" axisangle="0 1 1 0.5" pos="0 0 0.3">
-            <inertial pos="0.01 0.02 0.03" quat="0.9 0.1 0.2 0.3" mass="0.5" diaginertia="0.002 0.001 0.0015"/>
-            <geom class="case"/>
+      <geom type='box'/>
+      <geom type='ellipsoid' contype='0' conaffinity='0' pos='0 0.3 0' size='0.2'/>
+      <geom type='cylinder' class='main' pos='0 0 0' fromto='0 0 -0.1 0.1 0.2 -0.4' size='0.03' mass='0.7'/>
+      <geom type='box' class='main' pos='0 0 0' fromto='0 0.1 -0.1 0.1 0.2 -0.4' size='0.03'/>
+      <geom type='ellipsoid' class='main' pos='0 0 0' fromto='0 0.1 0.1 0.1 0.2 -0.4' size='0.03'
+            contype='0' conaffinity='0'/>
+      <geom class='case' group='4' mass='100' contype='0' conaffinity='0'/>
+      <frame pos='0.5 0 0' zaxis='1 0 1'>
+        <geom class='case'/>
+        <body name='pod' pos='0 0.2 0' xyaxes='0 1 0 -1 0 0.2'>
+          <geom class='main' type='sphere' size='0.07'/>
+          <body name='tip' axisangle='0 1 1 0.5' pos='0 0 0.3'>
+            <inertial pos='0.01 0.02 0.03' quat='0.9 0.1 0.2 0.3' mass='0.5' diaginertia='0.002 0.001 0.0015'/>
+            <geom class='case'/>
           </body>
         </body>
-        <body name="arm" pos="0 0 -0.4">
-          <joint name="a1" axis="1 2 0" pos="0 0 0.1" range="-1 0.4" stiffness="3" springref="0.2"/>
-          <joint name="a2" axis="-2 1 0" pos="0 0 0.1" armature="0.1"/>
-          <joint name="a3" axis="0 0 -3" pos="0 0 0.1"/>
-          <inertial pos="0 0 -0.1" mass="2" fullinertia="0.02 0.03 0.04 0.001 0.002 -0.003"/>
-          <geom class="main" type="capsule" size="0.05 0.2" pos="0 0 -0.2" euler="0.1 0.2 0.3"/>
-          <body name="flat" pos="0 0 -0.5">
-            <joint name="f" type="hinge" axis="0 1 0"/>
-            <inertial pos="0 0 0" mass="1" diaginertia="0.01 0.01 0.05"/>
+        <body name='arm' pos='0 0 -0.4'>
+          <joint name='a1' axis='1 2 0' pos='0 0 0.1' range='-1 0.4' stiffness='3' springref='0.2'/>
+          <joint name='a2' axis='-2 1 0' pos='0 0 0.1' armature='0.1'/>
+          <joint name='a3' axis='0 0 -3' pos='0 0 0.1'/>
+          <inertial pos='0 0 -0.1' mass='2' fullinertia='0.02 0.03 0.04 0.001 0.002 -0.003'/>
+          <geom class='main' type='capsule' size='0.05 0.2' pos='0 0 -0.2' euler='0.1 0.2 0.3'/>
+          <body name='flat' pos='0 0 -0.5'>
+            <joint name='f' type='hinge' axis='0 1 0'/>
+            <inertial pos='0 0 0' mass='1' diaginertia='0.01 0.01 0.05'/>
           </body>
         </body>
       </frame>
     </body>
   </worldbody>
   <actuator>
-    <position name="p" joint="a1" gear="2"/>
-    <position joint="f" ctrlrange="-2 2" forcerange="-5 5"/>
+    <position name='p' joint='a1' gear='2'/>
+    <position joint='f' ctrlrange='-2 2' forcerange='-5 5'/>
   </actuator>
-</mujoco>"#;
+</mujoco>";
 
 fn body<'a>(model: &'a Model, name: &str) -> &'a Body {
     model.bodies.iter().find(|body| body.name == name).expect(name)
@@ -104,21 +104,21 @@ fn an_unusual_text_has_mujocos_values() {
 #[test]
 fn the_compilers_mass_rules_are_mujocos() {
     let with = |change: &str| {
-        let text = ODD.replacen("balanceinertia=\"true\"", &format!("balanceinertia=\"true\" {change}"), 1);
+        let text = ODD.replacen("balanceinertia='true'", &format!("balanceinertia='true' {change}"), 1);
         Model::from_mjcf(&text).expect(change)
     };
     // Bounds first, then balance: (0.02 + 0.02 + 0.05) / 3. The capsule of 0.05 m and 0.4 m weighs 500 × 0.0036652 m³.
-    let bound = with("boundmass=\"3\" boundinertia=\"0.02\"");
+    let bound = with("boundmass='3' boundinertia='0.02'");
     assert_mass(body(&bound, "flat"), 3.0, [0.0; 3], [0.03, 0.03, 0.03, 0.0, 0.0, 0.0]);
     assert_eq!(body(&bound, "arm").mass_kg, 3.0);
-    let scaled = with("settotalmass=\"20\"");
+    let scaled = with("settotalmass='20'");
     let factor = 20.0 / 7.123974831206716;
     assert!((scaled.mass_kg() - 20.0).abs() < 1e-9);
     assert!((body(&scaled, "flat").inertia_kgm2[(0, 0)] - factor * 0.07 / 3.0).abs() < 1e-8);
-    let by_shapes = with("inertiafromgeom=\"true\"");
+    let by_shapes = with("inertiafromgeom='true'");
     assert!((body(&by_shapes, "arm").mass_kg - 1.832_595_714_594).abs() < 1e-9);
     assert_eq!(body(&by_shapes, "flat").mass_kg, 1.0, "without geoms its <inertial> counts");
-    let never = ODD.replacen("angle=\"radian\"", "angle=\"radian\" inertiafromgeom=\"false\"", 1);
+    let never = ODD.replacen("angle='radian'", "angle='radian' inertiafromgeom='false'", 1);
     assert!((Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12, "only the tip's counts");
 }
 
@@ -226,34 +226,34 @@ fn the_robot_with_servos_is_the_same_on_bumps() {
 fn a_motor_without_control_range_derives_it_from_its_limits() {
     let range_of = |motor: &str, joint: &str| {
         let text = format!(
-            r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 1"><freejoint/><geom size="0.1"/>
-               <body><joint name="hinge" {joint}/><geom size="0.1"/></body></body></worldbody>
-               <actuator><motor joint="hinge" {motor}/></actuator></mujoco>"#
+            r"<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 1'><freejoint/><geom size='0.1'/>
+               <body><joint name='hinge' {joint}/><geom size='0.1'/></body></body></worldbody>
+               <actuator><motor joint='hinge' {motor}/></actuator></mujoco>"
         );
         Model::from_mjcf(&text).expect("valid").motors[0].control
     };
-    assert_eq!(range_of("ctrlrange=\"-0.1 3\"", ""), [-0.1, 3.0]);
-    assert_eq!(range_of("ctrlrange=\"-0.1 3\" ctrllimited=\"false\"", ""), [-1.0, 1.0]);
-    assert_eq!(range_of("forcerange=\"-20 30\"", ""), [-20.0, 30.0]);
-    assert_eq!(range_of("gear=\"-10\"", "actuatorfrcrange=\"-20 30\""), [-3.0, 2.0]);
-    assert_eq!(range_of("gear=\"10\"", ""), [-1.0, 1.0]);
+    assert_eq!(range_of("ctrlrange='-0.1 3'", ""), [-0.1, 3.0]);
+    assert_eq!(range_of("ctrlrange='-0.1 3' ctrllimited='false'", ""), [-1.0, 1.0]);
+    assert_eq!(range_of("forcerange='-20 30'", ""), [-20.0, 30.0]);
+    assert_eq!(range_of("gear='-10'", "actuatorfrcrange='-20 30'"), [-3.0, 2.0]);
+    assert_eq!(range_of("gear='10'", ""), [-1.0, 1.0]);
 }
 
 #[test]
 fn actuators_that_share_a_servos_limit_are_noted() {
     let notes = |actuators: &str| {
         let model = Model::from_mjcf(&format!(
-            r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body><freejoint/><geom size="0.1"/><body>
-               <joint name="a"/><geom size="0.1"/><body><joint name="b"/><geom size="0.1"/></body></body></body></worldbody>
-               <actuator>{actuators}</actuator></mujoco>"#
+            r"<mujoco><worldbody><geom type='plane' size='1 1 1'/><body><freejoint/><geom size='0.1'/><body>
+               <joint name='a'/><geom size='0.1'/><body><joint name='b'/><geom size='0.1'/></body></body></body></worldbody>
+               <actuator>{actuators}</actuator></mujoco>"
         ));
         model.expect("valid").simplifications
     };
-    let limited = r#"<position joint="a" kp="50" ctrlrange="-1 1" forcerange="-5 5"/>"#;
-    let damped = format!(r#"{limited}<velocity joint="a" kv="3" ctrlrange="-1 1"/>"#);
+    let limited = "<position joint='a' kp='50' ctrlrange='-1 1' forcerange='-5 5'/>";
+    let damped = format!("{limited}<velocity joint='a' kv='3' ctrlrange='-1 1'/>");
     assert!(matches!(&notes(&damped)[..], [note] if note.contains("joint `a`") && note.contains("narrowest servo")));
-    let apart = format!(r#"{limited}<motor joint="b"/>"#);
-    let unlimited = r#"<position joint="a" kp="50" ctrlrange="-1 1"/><motor joint="a" forcerange="-5 5"/>"#;
+    let apart = format!("{limited}<motor joint='b'/>");
+    let unlimited = "<position joint='a' kp='50' ctrlrange='-1 1'/><motor joint='a' forcerange='-5 5'/>";
     for none in [limited, &apart[..], unlimited] {
         assert_eq!(notes(none), [""; 0], "{none}");
     }

@@ -2,17 +2,15 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics, worlds_per_pass};
+use treadmill_humanoid::{HUMANOID_XML, Physics, worlds_per_pass};
+
+use crate::{STILL, advance, simulation};
 
 const STEPS: u32 = 200;
 
-fn humanoid() -> Physics {
-    Physics::new(Model::from_mjcf(HUMANOID_XML).expect("valid"), &EnvironmentConfig::default()).expect("valid")
-}
-
 /// Simulation number `seed` at its start: standing, lying, or in the air.
 fn started(seed: u64) -> Physics {
-    let mut physics = humanoid();
+    let mut physics = simulation(HUMANOID_XML);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut position = physics.model().nominal_position();
     position[2] = [1.4, 0.6, 3.0][seed as usize % 3];
@@ -103,7 +101,7 @@ fn a_faulty_simulation_keeps_its_last_state() {
     Physics::step_together(&mut [&mut one, &mut other].into_iter());
     assert_eq!(one.position(), before);
     let position = one.model().nominal_position();
-    one.set_state(&position, &[0.0; 23]);
+    one.set_state(&position, &STILL);
     Physics::step_together(&mut [&mut one, &mut other].into_iter());
     assert!(one.check_step().is_ok());
 }
@@ -128,7 +126,7 @@ fn limbs(is_in_chain: bool) -> Physics {
          <geom type=\"sphere\" size=\"0.1\"/>{limbs}</body></worldbody><actuator>\
          <motor joint=\"a\" gear=\"1\" ctrlrange=\"-1 1\"/></actuator></mujoco>"
     );
-    Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+    simulation(&text)
 }
 
 /// The limbs at this height (m), with hinges that move.
@@ -163,9 +161,7 @@ fn another_model_of_the_same_size_leaves_nothing_behind() {
                 limbs(false).step_only(&[0.5]).expect("finite");
             }
             let mut physics = limbs_at(0.1);
-            for _ in 0..20 {
-                physics.step_only(&[0.5]).expect("finite");
-            }
+            advance(&mut physics, 20, &[0.5]);
             state(&physics)
         };
         // Workspaces belong to threads.

@@ -1,37 +1,31 @@
 //! A box on the floor: basic checks of the contact solver.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::Physics;
+
+use crate::{advance, simulation};
 
 const GRAVITY_MPS2: f64 = 9.81;
 const MASS_KG: f64 = 3.0;
 
 /// A flat box, 0.4 m × 0.6 m × 0.2 m; the required hinge and motor are negligible.
-fn flat_box(friction: f64, substeps: u32) -> Physics {
-    let text = format!(
+fn flat_box(friction: f64) -> Physics {
+    simulation(&format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="{friction}"/><body pos="0 0 0.1"><freejoint/>
            <geom type="box" size="0.2 0.3 0.1" mass="3" friction="{friction}"/>
            <body><joint name="j" damping="0.01"/>
            <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/></body>
            </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
-    );
-    let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
-    Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
-}
-
-fn step(body: &mut Physics) {
-    body.step_only(&[0.0]).expect("finite");
+    ))
 }
 
 #[test]
 fn a_box_at_rest_stays_and_the_floor_carries_its_weight() {
-    let mut body = flat_box(1.0, 4);
-    for _ in 0..100 {
-        step(&mut body);
-    }
+    let mut body = flat_box(1.0);
+    advance(&mut body, 100, &[0.0]);
     let place = body.position().to_vec();
     for _ in 0..100 {
-        step(&mut body);
+        advance(&mut body, 1, &[0.0]);
         let (force_n, moment_nm) = body.contact_wrench(0);
         let wanted = Vector3::new(0.0, 0.0, MASS_KG * GRAVITY_MPS2);
         assert!((force_n - wanted).norm() < 0.01 * wanted.z, "{force_n} N");
@@ -46,18 +40,14 @@ fn a_box_at_rest_stays_and_the_floor_carries_its_weight() {
 fn a_sliding_box_stops_where_friction_stops_it() {
     // Friction µ stops it after v² / (2 µ g); MuJoCo 4.0 with 3.75 ms: 1.0157 m, 0.4043 m and 0.2515 m.
     for (friction, mujoco_m) in [(0.2, 1.0157), (0.5, 0.4043), (0.8, 0.2515)] {
-        let mut body = flat_box(friction, 4);
+        let mut body = flat_box(friction);
         let mut position = body.model().nominal_position();
         // Start at the depth of rest, so that the box neither lands nor jumps.
-        for _ in 0..60 {
-            step(&mut body);
-        }
+        advance(&mut body, 60, &[0.0]);
         position[2] = body.torso_height_m();
         let speed_mps: f64 = 2.0;
         body.set_state(&position, &[0.0, speed_mps, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        for _ in 0..140 {
-            step(&mut body);
-        }
+        advance(&mut body, 140, &[0.0]);
         let slid_m = body.centre_of_mass().y;
         let wanted_m = speed_mps.powi(2) / (2.0 * friction * GRAVITY_MPS2);
         assert!((slid_m / wanted_m - 1.0).abs() < 0.02, "{slid_m} m instead of {wanted_m} m at friction {friction}");
@@ -66,9 +56,7 @@ fn a_sliding_box_stops_where_friction_stops_it() {
         // At little friction MuJoCo's pyramids are so stiff that the solver's tolerance lifts the box off now and then.
         let (most_mps, most_creep_mps) = if friction < 0.3 { (0.05, 5e-4) } else { (1e-4, 1e-4) };
         assert!(left_mps < most_mps, "{left_mps} m/s left at friction {friction}");
-        for _ in 0..100 {
-            step(&mut body);
-        }
+        advance(&mut body, 100, &[0.0]);
         let crept_mps = (body.centre_of_mass().y - slid_m).abs() / 1.5;
         assert!(crept_mps < most_creep_mps, "it creeps at {crept_mps} m/s at friction {friction}");
         // It slides straight on, without turning.
@@ -86,7 +74,7 @@ fn energy_j(body: &Physics) -> f64 {
 #[test]
 fn no_impact_adds_energy() {
     for (index, tilt) in [(0.3, 0.2, 0.0), (0.8, 0.1, 0.5), (1.2, 0.7, 0.0), (0.0, 0.0, 0.0)].into_iter().enumerate() {
-        let mut body = flat_box(0.7, 4);
+        let mut body = flat_box(0.7);
         let rotation = UnitQuaternion::from_euler_angles(tilt.0, tilt.1, tilt.2);
         let mut position = body.model().nominal_position();
         position[2] = 0.8;
@@ -95,7 +83,7 @@ fn no_impact_adds_energy() {
         let start = energy_j(&body);
         let (mut last, mut gained, mut at_once) = (start, 0.0f64, 0.0f64);
         for _ in 0..200 {
-            step(&mut body);
+            advance(&mut body, 1, &[0.0]);
             let now = energy_j(&body);
             at_once = at_once.max(now - last);
             gained = gained.max(now - start);

@@ -3,28 +3,18 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Mirror, Model, Physics};
+use treadmill_humanoid::{EnvConfig, HUMANOID_XML, Mirror, Model, Physics};
 
-use crate::CONTROL_STEP_S;
+use crate::{CONTROL_STEP_S, IDLE, STILL, WEIGHTLESS, advance, humanoid_text as changed, with_settings};
 
 const GRAVITY_MPS2: f64 = 9.81;
 
-/// Returns the built-in text with all changes applied; each must match.
-fn changed(changes: &[(&str, &str)]) -> String {
-    changes.iter().fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
-        assert!(text.contains(from), "{from}");
-        text.replace(from, to)
-    })
-}
-
-const WEIGHTLESS: (&str, &str) = ("<option ", "<option gravity=\"0 0 0\" ");
 const WITHOUT_LIMITS: (&str, &str) = ("limited=\"true\" damping", "limited=\"false\" damping");
 const WITHOUT_FRICTION: [(&str, &str); 2] = [("damping=\"5\"", "damping=\"0\""), ("damping=\"1\"", "damping=\"0\"")];
 
 /// Physics without self-collision, for states far above the floor.
 fn flying(xml: &str, substeps: u32) -> Physics {
-    let config = EnvironmentConfig::from(EnvConfig { substeps, self_collision: false, ..EnvConfig::default() });
-    Physics::new(Model::from_mjcf(xml).expect("valid"), &config).expect("valid")
+    with_settings(xml, &EnvConfig { substeps, self_collision: false, ..EnvConfig::default() })
 }
 
 /// Random state 100 m up with any orientation, hinges in the inner part of their ranges, and rates up to `rate`.
@@ -159,7 +149,7 @@ fn limits_act_symmetrically() {
             state.1[6 + hinge] = 4.0 * outwards;
             twins.set_state(&state);
             for _ in 0..4 {
-                let off = twins.step(&[0.0; 17]);
+                let off = twins.step(&IDLE);
                 match twins.exceeded_limits() {
                     0 => {}
                     1 => reached += 1,
@@ -275,7 +265,7 @@ fn energy_drift_j(substeps: u32) -> f64 {
         body.set_state(&position, &velocity);
         let start = energy_j(&body);
         for _ in 0..(1.0 / CONTROL_STEP_S) as u32 {
-            body.step_only(&[0.0; 17]).expect("finite");
+            body.step_only(&IDLE).expect("finite");
             worst = worst.max((energy_j(&body) - start).abs());
         }
     }
@@ -318,7 +308,7 @@ fn only_gravity_changes_the_momentum_of_a_flying_body() {
         for step in 1..=60 {
             let controls: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));
             body.step_only(&controls).expect("finite");
-            reached += u32::from(body.joint_quality().limit_overshoot_rad > 0.0);
+            reached += u32::from(body.limit_overshoot_rad() > 0.0);
             let time_s = f64::from(step) * CONTROL_STEP_S;
             let fallen = Vector3::new(0.0, 0.0, -GRAVITY_MPS2 * time_s);
             let (linear_now, angular_now) = momentum(&body);
@@ -334,26 +324,15 @@ fn only_gravity_changes_the_momentum_of_a_flying_body() {
     assert!(worst < 1e-11, "off by {worst}");
 }
 
-/// How far each motor at control 0.4 and at −0.4 drives its hinge beyond the upper and the lower end of its range (rad):
-/// measured with MuJoCo 4.0 and steps of 0.5 ms, without gravity and contacts.
-const MUJOCO_BEYOND_RAD: [[f64; 2]; 17] = [
-    [0.0480, 0.0339],
-    [0.0357, 0.0347],
-    [0.0345, 0.0345],
-    [0.0294, 0.0323],
-    [0.0608, 0.0529],
-    [0.1255, 0.0861],
-    [0.2956, 0.1981],
-    [0.0295, 0.0315],
-    [0.0623, 0.0529],
-    [0.1276, 0.0818],
-    [0.2967, 0.1919],
-    [0.0472, 0.0470],
-    [0.0431, 0.0517],
-    [0.0694, 0.0725],
-    [0.0469, 0.0481],
-    [0.0495, 0.0440],
-    [0.0680, 0.0728],
+/// How far each motor drives its hinge beyond the upper end of its range, at control 0.4, and beyond the lower end, at
+/// −0.4 (rad): measured with MuJoCo 4.0 and steps of 0.5 ms, without gravity and contacts.
+const MUJOCO_ABOVE_RAD: [f64; 17] = [
+    0.0480, 0.0357, 0.0345, 0.0294, 0.0608, 0.1255, 0.2956, 0.0295, 0.0623, 0.1276, 0.2967, 0.0472, 0.0431, 0.0694,
+    0.0469, 0.0495, 0.0680,
+];
+const MUJOCO_BELOW_RAD: [f64; 17] = [
+    0.0339, 0.0347, 0.0345, 0.0323, 0.0529, 0.0861, 0.1981, 0.0315, 0.0529, 0.0818, 0.1919, 0.0470, 0.0517, 0.0725,
+    0.0481, 0.0440, 0.0728,
 ];
 
 #[test]
@@ -365,12 +344,11 @@ fn a_hinge_driven_against_an_end_yields_like_mujocos_and_comes_back() {
     for (angle, hinge) in position[7..].iter_mut().zip(&model.hinges) {
         *angle = hinge.centre_rad();
     }
-    for (motor, wanted) in MUJOCO_BEYOND_RAD.into_iter().enumerate() {
+    for (motor, (above_rad, below_rad)) in MUJOCO_ABOVE_RAD.into_iter().zip(MUJOCO_BELOW_RAD).enumerate() {
         let hinge = model.motors[motor].hinge;
         let limits = &model.hinges[hinge];
-        for (wanted_rad, (control, end_rad)) in wanted.into_iter().zip([(0.4, limits.max_rad), (-0.4, limits.min_rad)])
-        {
-            body.set_state(&position, &[0.0; 23]);
+        for (wanted_rad, control, end_rad) in [(above_rad, 0.4, limits.max_rad), (below_rad, -0.4, limits.min_rad)] {
+            body.set_state(&position, &STILL);
             let mut controls = [0.0; 17];
             controls[motor] = control;
             let mut beyond = f64::NEG_INFINITY;
@@ -380,9 +358,7 @@ fn a_hinge_driven_against_an_end_yields_like_mujocos_and_comes_back() {
             }
             // The furthest moment lies between two control steps.
             assert!((beyond / wanted_rad - 1.0).abs() < 0.2, "{}: {beyond} rad, not {wanted_rad} rad", limits.name);
-            for _ in 0..100 {
-                body.step_only(&[0.0; 17]).expect("finite");
-            }
+            advance(&mut body, 100, &IDLE);
             let left = limits.overshoot_rad(body.joint_angles()[hinge]);
             assert!(left < 1e-4, "{} stays {left} rad beyond {end_rad} rad", limits.name);
         }

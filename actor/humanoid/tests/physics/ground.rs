@@ -1,7 +1,9 @@
 //! Bodies on height fields.
 
+use std::sync::Arc;
+
 use treadmill_humanoid::model::HeightField;
-use treadmill_humanoid::{HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{EnvConfig, HUMANOID_XML, Model, Physics};
 
 use crate::{SPARE_HINGE, SPARE_MOTOR, advance, lift_n, simulation};
 
@@ -40,15 +42,16 @@ fn on_plateau(shape: &str) -> Physics {
     above(shape, [0.1, 0.07, 0.42], 0.3, |x, y| f64::from(x.abs() <= 0.75 && y.abs() <= 0.75))
 }
 
-/// Mean lift over 1.5 s; the points of contact with triangles change, and the force of a single step with them.
-fn mean_lift_n(body: &mut Physics) -> f64 {
+/// Asserts that the mean lift over 1.5 s is the weight; the points of contact with triangles change, and the force of a
+/// single step with them.
+fn assert_carried(shape: &str, body: &mut Physics) {
     let steps = 100;
-    let mut sum = 0.0;
+    let mut mean_n = 0.0;
     for _ in 0..steps {
         advance(body, 1, &[0.0]);
-        sum += lift_n(body);
+        mean_n += lift_n(body) / f64::from(steps);
     }
-    sum / f64::from(steps)
+    assert!((mean_n / (2.0 * 9.81) - 1.0).abs() < 0.01, "{shape}: {mean_n} N");
 }
 
 #[test]
@@ -61,8 +64,7 @@ fn every_shape_rests_on_a_plateau_at_mujocos_height() {
         advance(&mut body, 200, &[0.0]);
         let height_m = body.torso_height_m();
         assert!((height_m - mujoco_m).abs() < 1e-3, "{shape}: {height_m} m instead of {mujoco_m} m");
-        let mean_n = mean_lift_n(&mut body);
-        assert!((mean_n / (2.0 * 9.81) - 1.0).abs() < 0.01, "{shape}: {mean_n} N");
+        assert_carried(shape, &mut body);
         // What can roll moves a little.
         assert!(body.centre_of_mass_velocity().norm() < 0.02, "{shape}: {}", body.centre_of_mass_velocity());
         let moved = body.centre_of_mass() - nalgebra::Point3::new(0.1, 0.07, body.centre_of_mass().z);
@@ -88,8 +90,7 @@ fn flat_bottoms_hold_on_a_slope() {
         // Soft friction creeps: by about 0.5 mm/s in MuJoCo 4.0.
         let crept_m = (body.centre_of_mass() - before).norm();
         assert!(crept_m < 1.2e-3, "{shape} crept by {crept_m} m in 1 s");
-        let mean_n = mean_lift_n(&mut body);
-        assert!((mean_n / (2.0 * 9.81) - 1.0).abs() < 0.01, "{shape}: {mean_n} N");
+        assert_carried(shape, &mut body);
     }
 }
 
@@ -104,8 +105,7 @@ fn round_shapes_rest_in_a_valley_on_both_sides() {
         assert!((place.z - mujoco_m).abs() < 1e-3, "{shape}: {} m instead of {mujoco_m} m", place.z);
         assert!(place.z < radius_m * 0.3f64.hypot(1.0), "{shape} floats at {} m", place.z);
         assert!(place.x.abs() < 1e-3 && (place.y - 0.07).abs() < 2e-3, "{shape} moved to {place}");
-        let mean_n = mean_lift_n(&mut body);
-        assert!((mean_n / (2.0 * 9.81) - 1.0).abs() < 0.01, "{shape}: {mean_n} N");
+        assert_carried(shape, &mut body);
         assert!(body.centre_of_mass_velocity().norm() < 1e-3, "{shape}: {}", body.centre_of_mass_velocity());
     }
 }
@@ -130,31 +130,35 @@ fn nothing_falls_through_a_rugged_field() {
     }
 }
 
-fn flat(model: &mut Model) {
-    // The bodies stand on edges between its triangles.
-    let field = HeightField::from_fn([9, 9], [6.0, 6.0], nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
-    model.set_height_field(field).expect("valid");
+/// Replaces the plane by a flat field with this many rows and columns.
+fn flatten(model: &mut Model, sides: [usize; 2], halves_m: [f64; 2]) {
+    let field = HeightField::from_fn(sides, halves_m, nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
+    model.ground.height_field = Some(Arc::new(field));
+}
+
+/// Model of a body of 2 kg on the plane.
+fn on_plane(place: &str, shape: &str) -> Model {
+    let text = format!(
+        r#"<mujoco><asset>{MESHES}</asset><worldbody><geom type="plane" size="1 1 1"/><body {place}><freejoint/>
+           <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
+    );
+    Model::from_mjcf(&text).expect("valid")
 }
 
 #[test]
 fn a_flat_field_equals_the_plane() {
     let humanoid = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let pebble = |shape: &str| {
-        Model::from_mjcf(&format!(
-            r#"<mujoco><asset>{MESHES}</asset><worldbody><geom type="plane" size="1 1 1"/><body pos="0.1 0.2 0.2"><freejoint/>
-               <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
-        ))
-        .expect("valid")
-    };
+    let pebble = |shape: &str| on_plane("pos=\"0.1 0.2 0.2\"", shape);
     // Rapier computes in single precision, and a lying cylinder slowly rolls away.
     let tolerance = |shape| if shape == LYING { 0.03 } else { 2e-3 };
     let bodies =
         [SPHERE, CAPSULE, BOX, LYING, UPRIGHT, HULL, SOLE].map(|shape| (shape, pebble(shape), 40, tolerance(shape)));
     for (name, model, steps, tolerance) in bodies.into_iter().chain([("humanoid", humanoid, 25, 5e-3)]) {
-        let mut plane = Physics::new(model.clone(), &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
+        let mut plane = Physics::new(model.clone(), &EnvConfig::default()).expect("valid");
         let mut field_model = model;
-        flat(&mut field_model);
-        let mut field = Physics::new(field_model, &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
+        // The bodies stand on edges between its triangles.
+        flatten(&mut field_model, [9, 9], [6.0, 6.0]);
+        let mut field = Physics::new(field_model, &EnvConfig::default()).expect("valid");
         let idle = vec![0.0; plane.model().motors.len()];
         let mut touched = 0;
         for step in 0..steps {
@@ -178,15 +182,10 @@ fn the_points_under_a_foot_span_its_sole() {
     for sides in [[81, 81], [41, 41]] {
         for number in 0..40 {
             let (place, turn) = (0.01 * f64::from(number), 9 * number);
-            let mut model = Model::from_mjcf(&format!(
-                r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="{place} {place} 0.0085" euler="0 0 {turn}">
-                   <freejoint/><geom type="box" size="0.09 0.03 0.008" mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}
-                   </mujoco>"#
-            ))
-            .expect("valid");
-            let field = HeightField::from_fn(sides, [4.0, 4.0], nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
-            model.set_height_field(field).expect("valid");
-            let mut foot = Physics::new(model, &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
+            let place = format!(r#"pos="{place} {place} 0.0085" euler="0 0 {turn}""#);
+            let mut model = on_plane(&place, r#"type="box" size="0.09 0.03 0.008""#);
+            flatten(&mut model, sides, [4.0, 4.0]);
+            let mut foot = Physics::new(model, &EnvConfig::default()).expect("valid");
             advance(&mut foot, 20, &[0.0]);
             let pose = foot.body_motion(0).pose;
             for (x, y) in [(0.09, 0.03), (-0.09, 0.03), (0.09, -0.03), (-0.09, -0.03)] {

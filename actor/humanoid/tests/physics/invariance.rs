@@ -1,20 +1,15 @@
 //! Laws that hold with contacts: momentum, and independence of the place and of a constant velocity.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::Physics;
 
-use crate::CONTROL_STEP_S;
 use crate::dynamics::momentum;
+use crate::{CONTROL_STEP_S, STILL, humanoid_text, with_substeps};
 
 const GRAVITY_MPS2: f64 = 9.81;
 
 fn humanoid(changes: &[(&str, &str)], substeps: u32) -> Physics {
-    let text = changes.iter().fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
-        assert!(text.contains(from), "{from}");
-        text.replace(from, to)
-    });
-    let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
-    Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
+    with_substeps(&humanoid_text(changes), substeps)
 }
 
 fn controls(step: u32) -> [f32; 17] {
@@ -61,7 +56,7 @@ fn moment_arms_are_right_without_the_correction_of_momentum() {
         let mut body = humanoid(&[root], substeps);
         // It runs: the stance foot stays where it is, under a moving root.
         let position = body.model().nominal_position();
-        let mut velocity = [0.0; 23];
+        let mut velocity = STILL;
         velocity[0] = 3.0;
         body.set_state(&position, &velocity);
         unexplained(&mut body, 40)
@@ -80,8 +75,8 @@ fn a_constant_velocity_on_ice_changes_nothing_else() {
     let (mut still, mut moving) = (humanoid(&[ice], 4), humanoid(&[ice], 4));
     let (speed, place) = (Vector3::new(3.0, -2.0, 0.0), Vector3::new(7.0, 11.0, 0.0));
     let mut position = still.model().nominal_position();
-    still.set_state(&position, &[0.0; 23]);
-    let mut velocity = [0.0; 23];
+    still.set_state(&position, &STILL);
+    let mut velocity = STILL;
     for axis in 0..3 {
         position[axis] += place[axis];
         velocity[axis] = speed[axis];

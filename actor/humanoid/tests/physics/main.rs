@@ -14,7 +14,7 @@ mod rest;
 mod rolling;
 mod variation;
 
-use treadmill_humanoid::{EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::{EnvConfig, HUMANOID_XML, Model, Physics};
 
 /// Control step of the default settings (s).
 const CONTROL_STEP_S: f64 = 0.015;
@@ -24,9 +24,30 @@ const SPARE_HINGE: &str = r#"<body><joint name="spare" damping="0.01"/>
     <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/></body>"#;
 const SPARE_MOTOR: &str = r#"<actuator><motor joint="spare"/></actuator>"#;
 
+const WEIGHTLESS: (&str, &str) = ("<option ", "<option gravity=\"0 0 0\" ");
+/// Controls of the humanoid, and its velocity vector, at rest.
+const IDLE: [f32; 17] = [0.0; 17];
+const STILL: [f64; 23] = [0.0; 23];
+
 /// Physics of a text with the default settings.
 fn simulation(text: &str) -> Physics {
-    Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+    with_settings(text, &EnvConfig::default())
+}
+
+fn with_settings(text: &str, settings: &EnvConfig) -> Physics {
+    Physics::new(Model::from_mjcf(text).expect("valid"), settings).expect("valid")
+}
+
+fn with_substeps(text: &str, substeps: u32) -> Physics {
+    with_settings(text, &EnvConfig { substeps, ..EnvConfig::default() })
+}
+
+/// Returns the text of the built-in humanoid with all changes applied; each must match.
+fn humanoid_text(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
 }
 
 /// Simulates control steps with the same controls.

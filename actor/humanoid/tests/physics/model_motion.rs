@@ -1,14 +1,11 @@
 //! Motion of other models: collision rules, friction, margins, motor ranges, servos.
 
-use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Model, Physics, Variation};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Physics};
 
-use crate::CONTROL_STEP_S;
+use crate::variation::varied;
+use crate::{CONTROL_STEP_S, advance, lift_n, simulation, with_substeps};
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
-
-fn physics(text: &str) -> Physics {
-    Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
-}
 
 /// Trunk with two arms whose hands overlap; with attributes of each hand and the floor, and more sections.
 fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
@@ -18,14 +15,13 @@ fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
                <geom type="box" size="0.05 0.05 0.05" {shape}/></body>"#
         )
     };
-    let text = format!(
+    simulation(&format!(
         r#"<mujoco><option gravity="0 0 0"/><worldbody><geom name="floor" type="plane" size="1 1 1" {floor}/>
            <body name="trunk" pos="0 0 0.52"><freejoint/><geom type="cylinder" size="0.1 0.1"/>
            {}{}</body></worldbody>{more}<actuator><motor joint="left" gear="1"/></actuator></mujoco>"#,
         arm("left", left),
         arm("right", right)
-    );
-    physics(&text)
+    ))
 }
 
 /// Whether the hands push each other in the air, and whether the floor lifts the body when they are 3 cm below it.
@@ -62,7 +58,7 @@ fn contype_conaffinity_and_exclusions_decide_contacts() {
 
 /// Box of 1 kg on the floor.
 fn sliding_box(shape: &str, floor: &str) -> Physics {
-    physics(&format!(
+    simulation(&format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.1"><freejoint/>
            <geom type="box" size="0.3 0.3 0.1" mass="1" {shape}/>
            <body pos="0 0 0"><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body>
@@ -74,9 +70,7 @@ fn sliding_box(shape: &str, floor: &str) -> Physics {
 fn speed_left(mut physics: Physics) -> f64 {
     let position = physics.model().nominal_position();
     physics.set_state(&position, &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    for _ in 0..10 {
-        physics.step_only(&[0.0]).expect("finite");
-    }
+    advance(&mut physics, 10, &[0.0]);
     physics.centre_of_mass_velocity().x
 }
 
@@ -97,16 +91,13 @@ fn the_greater_friction_of_a_pair_counts() {
 
 /// Distance (m) between a ball at rest and the floor.
 fn resting_gap_m(ball: &str, floor: &str) -> f64 {
-    let text = format!(
+    let mut physics = simulation(&format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.125"><freejoint/>
            <geom type="sphere" size="0.1" {ball}/><body pos="0 0 0.1"><joint name="turn" axis="0 0 1"/>
            <geom type="sphere" size="0.01"/></body></body></worldbody>
            <actuator><motor joint="turn" ctrlrange="-1 1"/></actuator></mujoco>"#
-    );
-    let mut physics = physics(&text);
-    for _ in 0..100 {
-        physics.step_only(&[0.0]).expect("finite");
-    }
+    ));
+    advance(&mut physics, 100, &[0.0]);
     physics.torso_height_m() - 0.1
 }
 
@@ -137,15 +128,12 @@ fn solid_shapes_rest_on_their_surfaces() {
         ("type=\"sphere\" size=\"0.2\"", 0.2),
         ("type=\"ellipsoid\" size=\"0.3 0.3 0.2\"", 0.2),
     ] {
-        let text = format!(
+        let mut physics = simulation(&format!(
             r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 {height_m}"><freejoint/>
                <geom {shape}/><body pos="0 0 0"><joint name="j"/><geom size="0.01" contype="0" conaffinity="0"/></body>
                </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
-        );
-        let mut physics = physics(&text);
-        for _ in 0..20 {
-            physics.step_only(&[0.0]).expect("finite");
-        }
+        ));
+        advance(&mut physics, 20, &[0.0]);
         let sunk = height_m - physics.torso_height_m();
         assert!(sunk.abs() < 0.005, "{shape} sank by {sunk} m");
     }
@@ -210,13 +198,11 @@ fn servo_torques_equal_mujocos() {
 
 #[test]
 fn a_weaker_servo_measures_the_same_length() {
-    let servo = driven("<position joint=\"j\" kp=\"50\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>", "armature=\"1\"");
-    let mut physics = Physics::new(servo.physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
+    let servo = "<position joint=\"j\" kp=\"50\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>";
+    let mut physics = simulation(&driven_model(servo, "armature=\"1\""));
     let mut position = physics.model().nominal_position();
     position[7] = 0.1;
-    let mut variation = Variation::none(physics.model());
-    variation.motor_scale[0] = 0.5;
-    physics.set_variation(&variation);
+    varied(&mut physics, |variation| variation.motor_scale[0] = 0.5);
     physics.set_state(&position, &[0.0; 7]);
     // Before the first step a servo's control is 0: half of 2 × 50 × −0.2.
     assert!((physics.joint_torques_nm()[0] + 10.0).abs() < 1e-9, "{} N·m", physics.joint_torques_nm()[0]);
@@ -233,28 +219,20 @@ fn a_weaker_servo_measures_the_same_length() {
 
 #[test]
 fn randomised_floor_friction_also_scales_the_shapes() {
-    let mut physics = sliding_box("friction=\"0.8\"", "friction=\"0.8\"");
-    let mut variation = Variation::none(physics.model());
-    variation.floor_friction_scale = 0.25;
-    physics.set_variation(&variation);
-    let (found, wanted) = (speed_left(physics), 2.0 - 0.2 * 9.81 * 0.15);
-    assert!((found - wanted).abs() < 0.05, "{found} m/s instead of {wanted} m/s");
+    for (scale, friction) in [(0.25, 0.2), (0.0, 0.0)] {
+        let mut physics = sliding_box("friction=\"0.8\"", "friction=\"0.8\"");
+        varied(&mut physics, |variation| variation.floor_friction_scale = scale);
+        let (found, wanted) = (speed_left(physics), 2.0 - friction * 9.81 * 0.15);
+        let tolerance = if friction == 0.0 { 0.01 } else { 0.05 };
+        assert!((found - wanted).abs() < tolerance, "{found} m/s instead of {wanted} m/s");
+    }
 }
 
 #[test]
-fn a_floor_without_friction_and_motors_without_strength_are_simulated() {
-    let mut slippery = sliding_box("friction=\"0.8\"", "friction=\"0.8\"");
-    let mut variation = Variation::none(slippery.model());
-    variation.floor_friction_scale = 0.0;
-    slippery.set_variation(&variation);
-    let left = speed_left(slippery);
-    assert!((left - 2.0).abs() < 0.01, "{left} m/s");
+fn motors_without_strength_are_simulated() {
     for motor in ["<motor joint=\"j\" gear=\"5\"/>", "<position joint=\"j\" kp=\"50\" ctrlrange=\"-1 1\"/>"] {
-        let mut weak =
-            Physics::new(driven(motor, "").physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
-        variation = Variation::none(weak.model());
-        variation.motor_scale[0] = 0.0;
-        weak.set_variation(&variation);
+        let mut weak = simulation(&driven_model(motor, ""));
+        varied(&mut weak, |variation| variation.motor_scale[0] = 0.0);
         weak.set_state(&weak.model().nominal_position(), &[0.0; 7]);
         weak.step_only(&[1.0]).expect("finite");
         assert_eq!(weak.joint_torques_nm()[0], 0.0, "{motor}");
@@ -283,11 +261,8 @@ fn a_very_stiff_servo_holds_its_target_without_oscillation() {
     let servo = format!("<position joint=\"j\" kp=\"{kp}\" kv=\"{kv}\" ctrlrange=\"-1 1\"/>");
     let text = driven_model(&servo, "armature=\"0.01\"");
     for (substeps, armature_scale) in [(1, 1.0), (2, 1.0), (4, 1.0), (4, 0.01), (4, 0.0)] {
-        let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
-        let mut physics = Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid");
-        let mut variation = Variation::none(physics.model());
-        variation.armature_scale[0] = armature_scale;
-        physics.set_variation(&variation);
+        let mut physics = with_substeps(&text, substeps);
+        varied(&mut physics, |variation| variation.armature_scale[0] = armature_scale);
         let (position, target) = (physics.model().nominal_position(), 0.3);
         physics.set_state(&position, &[0.0; 7]);
         for step in 0..100 {
@@ -327,9 +302,7 @@ fn the_robot_of_29_hinges_stands_and_survives_random_actions() {
     let mut impulse_ns = 0.0;
     for _ in 0..steps {
         assert!(!environment.step(&[0.0; 29], &mut observation).terminated);
-        let physics = environment.physics();
-        let force_n: f64 = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.z).sum();
-        impulse_ns += force_n * CONTROL_STEP_S;
+        impulse_ns += lift_n(environment.physics()) * CONTROL_STEP_S;
     }
     // The floor's impulse compensates gravity and changes the momentum.
     let change_mps = environment.physics().centre_of_mass_velocity().z - start_mps;

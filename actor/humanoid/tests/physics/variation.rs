@@ -1,19 +1,12 @@
 //! Randomised bodies and pushes.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics, Variation};
+use treadmill_humanoid::{HUMANOID_XML, Physics, Variation};
 
-use crate::CONTROL_STEP_S;
-
-const IDLE: [f32; 17] = [0.0; 17];
-const STILL: [f64; 23] = [0.0; 23];
-
-fn physics(xml: &str) -> Physics {
-    Physics::new(Model::from_mjcf(xml).expect("valid"), &EnvironmentConfig::default()).expect("valid")
-}
+use crate::{CONTROL_STEP_S, IDLE, STILL, WEIGHTLESS, advance, humanoid_text, lift_n, simulation};
 
 fn weightless() -> Physics {
-    physics(&HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" "))
+    simulation(&humanoid_text(&[WEIGHTLESS]))
 }
 
 /// Position far above the floor, with all hinges in the middle of their ranges.
@@ -26,7 +19,8 @@ fn in_the_air(physics: &Physics) -> Vec<f64> {
     position
 }
 
-fn varied(physics: &mut Physics, change: impl FnOnce(&mut Variation)) {
+/// Sets a variation that differs from none by a change.
+pub fn varied(physics: &mut Physics, change: impl FnOnce(&mut Variation)) {
     let mut variation = Variation::none(physics.model());
     change(&mut variation);
     physics.set_variation(&variation);
@@ -45,8 +39,8 @@ fn outcome(physics: &mut Physics) -> Vec<f64> {
 
 #[test]
 fn resetting_the_variation_restores_the_model_bit_for_bit() {
-    let plain = outcome(&mut physics(HUMANOID_XML));
-    let mut body = physics(HUMANOID_XML);
+    let plain = outcome(&mut simulation(HUMANOID_XML));
+    let mut body = simulation(HUMANOID_XML);
     varied(&mut body, |_| {});
     assert_eq!(plain, outcome(&mut body));
     for _ in 0..2 {
@@ -68,7 +62,7 @@ fn resetting_the_variation_restores_the_model_bit_for_bit() {
 
 #[test]
 fn the_floor_carries_the_varied_mass() {
-    let mut body = physics(HUMANOID_XML);
+    let mut body = simulation(HUMANOID_XML);
     let nominal_kg: Vec<f64> = body.model().bodies.iter().map(|body| body.mass_kg).collect();
     let scale = |index: usize| 0.6 + 0.1 * index as f64;
     varied(&mut body, |variation| {
@@ -84,13 +78,13 @@ fn the_floor_carries_the_varied_mass() {
         let mass_kg: f64 = links().map(|link| link.mass_kg).sum();
         assert!((mass_kg - part.mass_kg).abs() < 1e-9, "the links of {} must vary with it", part.name);
     }
-    (0..400).for_each(|_| body.step_only(&IDLE).expect("finite"));
+    advance(&mut body, 400, &IDLE);
+    assert!((0.0..0.6).contains(&body.torso_height_m()), "the torso is at {} m", body.torso_height_m());
     let samples = 200;
     let mut force_n = 0.0;
     for _ in 0..samples {
-        body.step_only(&IDLE).expect("finite");
-        force_n +=
-            (0..body.model().links.len()).map(|link| body.contact_wrench(link).0.z).sum::<f64>() / f64::from(samples);
+        advance(&mut body, 1, &IDLE);
+        force_n += lift_n(&body) / f64::from(samples);
     }
     let weight_n = 9.81 * expected_kg;
     assert!((force_n / weight_n - 1.0).abs() < 0.02, "the floor carries {force_n} N of {weight_n} N");
@@ -98,7 +92,7 @@ fn the_floor_carries_the_varied_mass() {
 
 #[test]
 fn the_centre_of_mass_moves_with_that_of_the_root() {
-    let mut body = physics(HUMANOID_XML);
+    let mut body = simulation(HUMANOID_XML);
     let position = body.model().nominal_position();
     let (share, offset_m) = (body.model().bodies[0].mass_kg / body.model().mass_kg(), Vector3::new(0.05, -0.02, 0.03));
     body.set_state(&position, &STILL);
@@ -113,7 +107,7 @@ fn the_centre_of_mass_moves_with_that_of_the_root() {
 #[test]
 fn servos_push_by_their_varied_stiffness_and_damping() {
     let xml = include_str!("../../assets/g1-like-servos.xml");
-    let mut body = physics(xml);
+    let mut body = simulation(xml);
     let hinges = body.model().hinges.len();
     let (mut position, mut velocity) = (body.model().nominal_position(), vec![0.0; 6 + hinges]);
     position[2] = 3.0;
@@ -190,7 +184,7 @@ fn damping_slows_a_swinging_hinge() {
     let mut rate_after = |scale: f64| {
         varied(&mut body, |variation| variation.damping_scale[knee] = scale);
         body.set_state(&position, &velocity);
-        (0..10).for_each(|_| body.step_only(&IDLE).expect("finite"));
+        advance(&mut body, 10, &IDLE);
         body.joint_rates()[knee]
     };
     let [free, nominal, damped] = [0.0, 1.0, 4.0].map(&mut rate_after);
@@ -199,58 +193,20 @@ fn damping_slows_a_swinging_hinge() {
 }
 
 #[test]
-fn a_larger_armature_accelerates_more_slowly() {
-    let mut body = weightless();
-    let position = in_the_air(&body);
-    let elbow = body.model().hinges.iter().position(|hinge| hinge.name == "right_elbow").expect("has an elbow");
-    let motor = body.model().motors.iter().position(|motor| motor.hinge == elbow).expect("has a motor");
-    let mut action = IDLE;
-    action[motor] = 0.2;
-    let mut rate = |scale: f64| {
-        varied(&mut body, |variation| variation.armature_scale[elbow] = scale);
-        body.set_state(&position, &STILL);
-        body.step_only(&action).expect("finite");
-        body.joint_rates()[elbow].abs()
-    };
-    let [small, large] = [1.0, 10.0].map(&mut rate);
-    assert!(large > 0.0 && large < 0.8 * small, "{small} and {large} rad/s");
-}
-
-#[test]
-fn without_friction_a_body_slides() {
-    let mut body = physics(HUMANOID_XML);
-    (0..600).for_each(|_| body.step_only(&IDLE).expect("finite"));
-    let lying = body.position().to_vec();
-    let mut velocity = STILL;
-    velocity[0] = 2.0;
-    let mut speed_after = |scale: f64| {
-        varied(&mut body, |variation| variation.floor_friction_scale = scale);
-        body.set_state(&lying, &velocity);
-        (0..20).for_each(|_| body.step_only(&IDLE).expect("finite"));
-        body.centre_of_mass_velocity().x
-    };
-    // 0.3 s of friction coefficient 1 take 2.9 m/s; a quarter of it takes 0.74 m/s.
-    let [ice, some, nominal] = [0.0, 0.25, 1.0].map(&mut speed_after);
-    assert!((ice - 2.0).abs() < 0.1, "{ice} m/s on ice");
-    assert!((some - 1.26).abs() < 0.25, "{some} m/s with a quarter of the friction");
-    assert!(nominal < 0.4, "{nominal} m/s");
-}
-
-#[test]
 fn gravity_scales_free_fall() {
-    let mut body = physics(HUMANOID_XML);
+    let mut body = simulation(HUMANOID_XML);
     let position = in_the_air(&body);
     varied(&mut body, |variation| variation.gravity_scale = 0.5);
     body.set_state(&position, &STILL);
-    (0..10).for_each(|_| body.step_only(&IDLE).expect("finite"));
+    advance(&mut body, 10, &IDLE);
     let expected = -0.5 * 9.81 * 10.0 * CONTROL_STEP_S;
     assert!((body.centre_of_mass_velocity().z - expected).abs() < 1e-2);
 }
 
 #[test]
 fn a_push_changes_only_the_velocity_of_the_whole_body() {
-    let mut body = physics(HUMANOID_XML);
-    (0..7).for_each(|_| body.step_only(&[0.2; 17]).expect("finite"));
+    let mut body = simulation(HUMANOID_XML);
+    advance(&mut body, 7, &[0.2; 17]);
     let (position, velocity) = (body.position().to_vec(), body.velocity().to_vec());
     let centre = body.centre_of_mass_velocity();
     let push = Vector3::new(0.5, -0.25, 0.125);
@@ -267,6 +223,6 @@ fn a_push_changes_only_the_velocity_of_the_whole_body() {
 #[test]
 #[should_panic(expected = "one mass scale per body is needed")]
 fn a_variation_of_the_wrong_size_panics() {
-    let mut body = physics(HUMANOID_XML);
+    let mut body = simulation(HUMANOID_XML);
     varied(&mut body, |variation| variation.mass_scale.truncate(10));
 }

@@ -86,10 +86,9 @@ impl<S: Simd> GaussSeidel<S> {
         }
     }
 
-    /// Changes whitened accelerations and the forces by all constraints. Returns the largest change of an acceleration
-    /// by the last sweep.
+    /// Changes whitened accelerations and the forces by all constraints.
     #[inline(always)]
-    pub(super) fn solve(&mut self, problem: Problem<'_, S>, whitened: &mut [Lanes<S>]) -> Lanes<S> {
+    pub(super) fn solve(&mut self, problem: Problem<'_, S>, whitened: &mut [Lanes<S>]) {
         self.prepare(&problem);
         let Problem { structure, pairs, coordinates, contacts, rows: contact_rows, .. } = problem;
         let rows = &self.rows;
@@ -103,7 +102,6 @@ impl<S: Simd> GaussSeidel<S> {
         let zero = whitened[0].constant(0.0);
         let all = zero.less_than(zero.constant(1.0));
         let mut sweep = Sweep { running: all, largest: zero, scale: zero };
-        let mut residual = zero;
         for _ in 0..SWEEPS_MAX {
             sweep.largest = zero;
             for (constraint, response) in coordinates.iter_mut().zip(&self.coordinates) {
@@ -112,14 +110,12 @@ impl<S: Simd> GaussSeidel<S> {
             for (contact, response) in contacts.iter_mut().zip(&self.contacts) {
                 response.update(contact, contact_rows, &pairs[contact.key.0 as usize], whitened, &mut sweep);
             }
-            residual = sweep.running.select(sweep.largest, residual);
             let settled = (sweep.scale * SETTLED).max(zero.constant(SETTLED_MIN));
             sweep.running = sweep.running.and(settled.less_than(sweep.largest));
             if !sweep.running.any() {
                 break;
             }
         }
-        residual
     }
 
     /// Computes the responses.

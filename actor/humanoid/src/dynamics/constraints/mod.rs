@@ -44,8 +44,6 @@ pub(crate) struct Constraints<S: Simd> {
     pub(crate) whitened: Vec<Lanes<S>>,
     /// Factor on all friction coefficients.
     pub(crate) friction_scale: Lanes<S>,
-    /// Largest change of an acceleration by the last sweep or iteration.
-    pub(crate) residual: Lanes<S>,
 }
 
 /// Workspace of the chosen method.
@@ -121,16 +119,14 @@ impl<S: Simd> Constraints<S> {
             start_velocity: vec![zero; structure.dofs()],
             whitened: vec![zero; structure.dofs()],
             friction_scale: zero,
-            residual: zero,
         }
     }
 
     /// Forgets the forces of the step before.
+    #[inline(always)]
     pub(crate) fn forget(&mut self) {
-        let zero = self.residual.constant(0.0);
-        self.warm_coordinates.fill([zero; 3]);
+        self.warm_coordinates.fill([self.friction_scale.constant(0.0); 3]);
         self.warm_contacts.clear();
-        self.residual = zero;
     }
 
     /// Notes the mass matrix of a step before it is factored.
@@ -191,18 +187,15 @@ impl<S: Simd> Constraints<S> {
         if !(self.coordinates.is_empty() && self.contacts.is_empty()) {
             let Self { coordinates, contacts, contact_rows: rows, method, whitened, .. } = self;
             let problem = Problem { structure, pairs, matrix, coordinates, contacts, rows };
-            let residual = match method {
+            match method {
                 Method::Newton(newton) => newton.solve(problem, acceleration, whitened),
                 Method::GaussSeidel(sweeps) => sweeps.solve(problem, whitened),
-            };
-            self.residual = self.residual.max(residual);
+            }
         }
-        let zero = self.residual.constant(0.0);
-        self.warm_coordinates.fill([zero; 3]);
+        self.forget();
         for known in &self.coordinates {
             self.warm_coordinates[known.coordinate] = [known.limit_nm, known.loss_nm, known.servo_nm];
         }
-        self.warm_contacts.clear();
         for contact in &self.contacts {
             self.warm_contacts.push((contact.key, contact.forces_n));
         }
@@ -216,7 +209,7 @@ impl<S: Simd> Constraints<S> {
                 return *forces;
             }
         }
-        [self.residual.constant(0.0); EDGES]
+        [self.friction_scale.constant(0.0); EDGES]
     }
 
     /// Writes the forces of all contact points of the last solve.

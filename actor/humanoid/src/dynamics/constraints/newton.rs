@@ -92,19 +92,13 @@ impl<S: Simd> Newton<S> {
     }
 
     /// Changes whitened accelerations and the forces by all constraints, beginning with the acceleration `start`, in
-    /// the worlds that have constraints. Returns the largest change of an acceleration by the last iteration.
+    /// the worlds that have constraints.
     #[inline(always)]
-    pub(super) fn solve(
-        &mut self,
-        mut problem: Problem<'_, S>,
-        start: &[Lanes<S>],
-        whitened: &mut [Lanes<S>],
-    ) -> Lanes<S> {
+    pub(super) fn solve(&mut self, mut problem: Problem<'_, S>, start: &[Lanes<S>], whitened: &mut [Lanes<S>]) {
         let structure = problem.structure;
         self.begin(&problem, start, whitened);
         let constrained = problem.constrained(whitened[0]);
         let mut running = constrained;
-        let mut residual = whitened[0].constant(0.0);
         for iteration in 0..=ITERATIONS_MAX {
             self.respond(&mut problem);
             running = running.and(self.is_unsettled(&problem));
@@ -123,14 +117,13 @@ impl<S: Simd> Newton<S> {
             self.masses.times(structure, &self.step, &mut self.inertial_step);
             self.note_changes(&problem);
             let share = self.search(&problem, running);
-            residual = running.select(self.advance(share), residual);
+            self.advance(share);
         }
         problem.matrix.whiten(structure, &mut self.acceleration);
         for (number, solution) in whitened.iter_mut().zip(&self.acceleration) {
             // Without constraints nothing changes, not even by rounding: neighbours that have some make no difference.
             *number = constrained.select(*solution, *number);
         }
-        residual
     }
 
     /// Computes the constraints' accelerations at the start.
@@ -316,25 +309,21 @@ impl<S: Simd> Newton<S> {
         share
     }
 
-    /// Takes a share of the step. Returns the largest change of a constraint's acceleration.
+    /// Takes a share of the step.
     #[inline(always)]
-    fn advance(&mut self, share: Lanes<S>) -> Lanes<S> {
+    fn advance(&mut self, share: Lanes<S>) {
         for (index, step) in self.step.iter().enumerate() {
             self.acceleration[index] = step.mul_add(share, self.acceleration[index]);
             self.inertial[index] = self.inertial_step[index].mul_add(share, self.inertial[index]);
         }
-        let mut largest = share.constant(0.0);
         for state in &mut self.coordinates {
             state.acceleration = state.change.mul_add(share, state.acceleration);
-            largest = largest.max((state.change * share).abs());
         }
         for state in &mut self.contacts {
             for (acceleration, change) in state.accelerations.iter_mut().zip(state.changes) {
                 *acceleration = change.mul_add(share, *acceleration);
-                largest = largest.max((change * share).abs());
             }
         }
-        largest
     }
 }
 
