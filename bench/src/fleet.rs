@@ -10,7 +10,7 @@ use treadmill_runtime::machine;
 
 use crate::{
     RUN,
-    measurement::{MeasurementPlan, PlayedRate},
+    measurement::MeasurementPlan,
     process::{certify, flags},
 };
 
@@ -62,25 +62,17 @@ pub struct FleetArgs {
     json: bool,
 }
 
-/// Value of `--rate`.
+/// Value of `--rate`; `None` is `auto`.
 #[derive(Clone, Copy, Debug)]
-enum RateChoice {
-    Auto,
-    Fixed(f64),
-}
+struct RateChoice(Option<f64>);
 
 impl FromStr for RateChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let rate = text.parse().ok().filter(|rate| (RATE_MIN..=RATE_MAX).contains(rate));
         let expected = || format!("`auto`, or {RATE_MIN} to {RATE_MAX} steps per second");
-        match text {
-            "auto" => Ok(Self::Auto),
-            _ => {
-                let rate = text.parse().ok().filter(|rate| (RATE_MIN..=RATE_MAX).contains(rate));
-                rate.map(Self::Fixed).ok_or_else(expected)
-            }
-        }
+        if text == "auto" { Ok(Self(None)) } else { rate.map(|rate| Self(Some(rate))).ok_or_else(expected) }
     }
 }
 
@@ -99,10 +91,8 @@ pub fn run(args: &FleetArgs) -> anyhow::Result<()> {
     let plan = MeasurementPlan {
         actors: args.actors as usize,
         envs: args.envs,
-        rate: match args.rate {
-            RateChoice::Auto => PlayedRate::Load(args.load),
-            RateChoice::Fixed(rate) => PlayedRate::Fixed(rate),
-        },
+        rate: args.rate.0,
+        load: args.load,
         slow: args.slow.clone(),
         routers: args.routers as usize,
         seconds: args.seconds,

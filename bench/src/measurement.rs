@@ -34,20 +34,13 @@ const UPDATES_MIN: usize = 5;
 /// Attempts to read the played actors' counts without an update meanwhile.
 const MARK_ATTEMPTS: u32 = 20;
 
-/// Rate of every played actor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PlayedRate {
-    /// Environment steps per second of each actor.
-    Fixed(f64),
-    /// The sum of all rates is this multiple of the update's own speed, which is measured first.
-    Load(f64),
-}
-
 /// Parameters of a measurement.
 pub struct MeasurementPlan {
     pub actors: usize,
     pub envs: u32,
-    pub rate: PlayedRate,
+    /// Environment steps per second of each actor; by default all together have `load` of the update's own speed.
+    pub rate: Option<f64>,
+    pub load: f64,
     /// Factors on the rates of the last actors.
     pub slow: Vec<f64>,
     pub routers: usize,
@@ -69,8 +62,8 @@ impl MeasurementPlan {
         let factors = [vec![1.0; self.actors - self.slow.len()], self.slow.clone()].concat();
         let before_s = self.seconds / 4.0;
         let each = match self.rate {
-            PlayedRate::Fixed(rate) => rate,
-            PlayedRate::Load(load) => load * measurement.calibrate(before_s)? / factors.iter().sum::<f64>(),
+            Some(rate) => rate,
+            None => self.load * measurement.calibrate(before_s)? / factors.iter().sum::<f64>(),
         };
         let rates: Vec<f64> = factors.iter().map(|factor| factor * each).collect();
         measurement.fleet.set_rates(&rates)?;

@@ -23,18 +23,6 @@ const FIELD_OF_VIEW_RAD: f64 = 0.72;
 const TARGET_HEIGHT_M: f64 = 0.95;
 
 impl Camera {
-    /// Returns a camera at `eye` that looks at `target`.
-    ///
-    /// # Panics
-    /// If one is vertically above the other.
-    #[must_use]
-    pub fn looking_at(eye: Point3<f64>, target: Point3<f64>) -> Self {
-        let forward = (target - eye).normalize();
-        let right =
-            forward.cross(&Vector3::z()).try_normalize(1e-9).expect("the camera must not look straight up or down");
-        Self { eye, right, up: right.cross(&forward), forward, half_height: (FIELD_OF_VIEW_RAD / 2.0).tan() }
-    }
-
     /// Returns a camera beside a body whose torso is above this point of the floor (m).
     #[must_use]
     pub fn beside(x_m: f64, y_m: f64) -> Self {
@@ -47,8 +35,11 @@ impl Camera {
     /// If the offset is vertical.
     #[must_use]
     pub fn following(x_m: f64, y_m: f64, offset_m: [f64; 3]) -> Self {
-        let target = Point3::new(x_m, y_m, TARGET_HEIGHT_M);
-        Self::looking_at(target + Vector3::from(offset_m), target)
+        let offset = Vector3::from(offset_m);
+        let (eye, forward) = (Point3::new(x_m, y_m, TARGET_HEIGHT_M) + offset, -offset.normalize());
+        let right =
+            forward.cross(&Vector3::z()).try_normalize(1e-9).expect("the camera must not look straight up or down");
+        Self { eye, right, up: right.cross(&forward), forward, half_height: (FIELD_OF_VIEW_RAD / 2.0).tan() }
     }
 
     /// Returns the ray through a point of an image, in pixels from its upper left corner; `size` is width and height.

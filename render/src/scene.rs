@@ -70,7 +70,7 @@ impl Scene {
         let mut first: Option<(Hit, Colour)> = None;
         for (solid, colour) in &self.solids {
             let nearest_m = first.map_or(f64::INFINITY, |(hit, _)| hit.distance_m);
-            if solid.may_hit(ray, nearest_m)
+            if solid.bound.may_hit(ray, nearest_m)
                 && let Some(hit) = solid.hit(ray)
                 && hit.distance_m < nearest_m
             {
@@ -83,7 +83,7 @@ impl Scene {
     /// Returns whether a ray hits any shape.
     pub(crate) fn is_hit(&self, ray: &Ray) -> bool {
         self.is_near(ray)
-            && self.solids.iter().any(|(solid, _)| solid.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())
+            && self.solids.iter().any(|(solid, _)| solid.bound.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())
     }
 
     fn is_near(&self, ray: &Ray) -> bool {

@@ -1,6 +1,6 @@
 //! Intersection of a ray with a shape.
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use treadmill_humanoid::model::Geometry;
 
 /// Half-line.
@@ -77,19 +77,18 @@ enum Form {
         radius_m: f64,
         half_length_m: f64,
     },
-    Box {
-        pose: Isometry3<f64>,
-        half_m: Vector3<f64>,
-    },
     Ellipsoid {
         pose: Isometry3<f64>,
         half_m: Vector3<f64>,
     },
-    /// Planes of the faces: outward normal and position along it (m).
+    /// Planes of the faces of a hull or a box.
     Hull {
-        planes: Vec<(Vector3<f64>, f64)>,
+        planes: Vec<Plane>,
     },
 }
+
+/// Outward normal of a face, and its position along the normal (m).
+pub(crate) type Plane = (Vector3<f64>, f64);
 
 impl Solid {
     /// Returns a shape of a body whose pose is `body`.
@@ -104,7 +103,9 @@ impl Solid {
             Geometry::Cylinder { pose, radius_m, half_length_m } => {
                 (Form::Cylinder { pose: body * pose, radius_m, half_length_m }, radius_m.hypot(half_length_m))
             }
-            Geometry::Box { pose, half_m } => (Form::Box { pose: body * pose, half_m }, half_m.norm()),
+            Geometry::Box { pose, half_m } => {
+                (Form::Hull { planes: box_planes(&(body * pose), &half_m) }, half_m.norm())
+            }
             Geometry::Ellipsoid { pose, half_m } => (Form::Ellipsoid { pose: body * pose, half_m }, half_m.max()),
             Geometry::Hull { ref vertices_m } => {
                 let centre = geometry.centre_m();
@@ -113,11 +114,6 @@ impl Solid {
             }
         };
         Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
-    }
-
-    /// Returns whether a ray may hit the shape before a distance (m): whether it enters the bounding sphere.
-    pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
-        self.bound.may_hit(ray, before_m)
     }
 
     /// Returns where a ray from outside enters the shape.
@@ -130,7 +126,6 @@ impl Solid {
             Form::Cylinder { pose, radius_m, half_length_m } => {
                 to_world(cylinder(&ray.in_frame_of(&pose), radius_m, half_length_m), &pose)
             }
-            Form::Box { pose, half_m } => to_world(cuboid(&ray.in_frame_of(&pose), &half_m), &pose),
             Form::Ellipsoid { pose, half_m } => to_world(ellipsoid(&ray.in_frame_of(&pose), &half_m), &pose),
         }
     }
@@ -192,31 +187,8 @@ fn cylinder(ray: &Ray, radius_m: f64, half_length_m: f64) -> Option<Hit> {
         .then(|| Hit { distance_m, normal: Vector3::new(0.0, 0.0, up) })
 }
 
-/// Returns where a ray enters a box, by the slab method: it enters the last pair of planes before it leaves the first.
-fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
-    let (mut enters, mut leaves, mut through) = (f64::NEG_INFINITY, f64::INFINITY, 0);
-    for axis in 0..3 {
-        let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
-        if direction == 0.0 {
-            if origin.abs() > half_m[axis] {
-                return None;
-            }
-            continue;
-        }
-        let near = (-half_m[axis] * direction.signum() - origin) / direction;
-        let far = (half_m[axis] * direction.signum() - origin) / direction;
-        if near > enters {
-            (enters, through) = (near, axis);
-        }
-        leaves = leaves.min(far);
-    }
-    let mut normal = Vector3::zeros();
-    normal[through] = -ray.direction[through].signum();
-    (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
-}
-
 /// Returns the planes of a hull's faces in the world.
-fn planes(geometry: &Geometry, vertices_m: &[Point3<f64>], body: &Isometry3<f64>) -> Vec<(Vector3<f64>, f64)> {
+fn planes(geometry: &Geometry, vertices_m: &[Point3<f64>], body: &Isometry3<f64>) -> Vec<Plane> {
     let plane = |corners: [usize; 3]| {
         let [a, b, c] = corners.map(|corner| body * vertices_m[corner]);
         let normal = (b - a).cross(&(c - a)).normalize();
@@ -225,8 +197,24 @@ fn planes(geometry: &Geometry, vertices_m: &[Point3<f64>], body: &Isometry3<f64>
     geometry.hull_faces().into_iter().map(plane).collect()
 }
 
-/// Returns where a ray enters the space behind all planes.
-fn hull(ray: &Ray, planes: &[(Vector3<f64>, f64)]) -> Option<Hit> {
+/// Returns the planes of a box's faces in the world.
+pub(crate) fn box_planes(pose: &Isometry3<f64>, half_m: &Vector3<f64>) -> Vec<Plane> {
+    let axes = Matrix3::identity();
+    let plane = |(axis, side): (usize, f64)| {
+        let normal = pose * (axes.column(axis) * side);
+        (normal, normal.dot(&pose.translation.vector) + half_m[axis])
+    };
+    (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]).map(plane).collect()
+}
+
+fn hull(ray: &Ray, planes: &[Plane]) -> Option<Hit> {
+    let (enters, leaves, normal) = passage(ray, planes)?;
+    (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
+}
+
+/// Returns where a ray enters the last and leaves the first of the spaces behind planes, and the normal where it enters;
+/// `None` if it stays before a plane.
+pub(crate) fn passage(ray: &Ray, planes: &[Plane]) -> Option<(f64, f64, Vector3<f64>)> {
     let (mut enters, mut leaves, mut normal) = (f64::NEG_INFINITY, f64::INFINITY, Vector3::zeros());
     for (outwards, offset) in planes {
         let (height, rate) = (outwards.dot(&ray.origin.coords) - offset, outwards.dot(&ray.direction));
@@ -240,7 +228,7 @@ fn hull(ray: &Ray, planes: &[(Vector3<f64>, f64)]) -> Option<Hit> {
             (enters, normal) = (-height / rate, *outwards);
         }
     }
-    (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
+    Some((enters, leaves, normal))
 }
 
 /// Returns where a ray enters an ellipsoid, which is a unit sphere when all lengths are divided by the semi-axes.

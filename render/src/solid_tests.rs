@@ -61,8 +61,8 @@ proptest! {
         let first = (0..4000).map(|step| f64::from(step) * 1e-3).find(|&distance| level_at(ray.at(distance)) < 0.0);
         match solid.hit(&ray) {
             Some(hit) => {
-                prop_assert!(solid.may_hit(&ray, f64::INFINITY));
-                prop_assert!(solid.may_hit(&ray, hit.distance_m + 1e-6));
+                prop_assert!(solid.bound.may_hit(&ray, f64::INFINITY));
+                prop_assert!(solid.bound.may_hit(&ray, hit.distance_m + 1e-6));
                 prop_assert!(level_at(ray.at(hit.distance_m)).abs() < 1e-9);
                 prop_assert!((hit.normal.norm() - 1.0).abs() < 1e-9);
                 prop_assert!(hit.normal.dot(&ray.direction) <= 1e-9, "the normal must face the ray");
@@ -82,6 +82,6 @@ fn shapes_behind_the_ray_are_not_hit() {
     for geometry in forms() {
         let solid = Solid::new(&geometry, &Isometry3::identity());
         let ray = Ray { origin: Point3::new(3.0, 0.0, 0.0), direction: Vector3::x() };
-        assert!(solid.hit(&ray).is_none() && !solid.may_hit(&ray, f64::INFINITY), "{geometry:?}");
+        assert!(solid.hit(&ray).is_none() && !solid.bound.may_hit(&ray, f64::INFINITY), "{geometry:?}");
     }
 }

@@ -1,15 +1,15 @@
 //! Surface of a scene: the plane z = 0, or a height field.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use treadmill_humanoid::model::HeightField;
 
-use crate::solid::{Hit, Ray};
+use crate::solid::{Hit, Plane, Ray, box_planes, passage};
 
 /// Surface of the ground.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Field with its least and greatest height in the world (m); `None` is the plane.
-    field: Option<(HeightField, [f64; 2])>,
+    /// Field, and the planes of the box around it; `None` is the plane.
+    field: Option<(HeightField, Vec<Plane>)>,
 }
 
 impl Surface {
@@ -18,8 +18,11 @@ impl Surface {
     pub fn new(field: Option<&HeightField>) -> Self {
         let field = field.map(|field| {
             let heights_m = field.heights_m.iter().map(|height_m| height_m + field.centre_m.z);
-            let ends = (heights_m.clone().fold(f64::INFINITY, f64::min), heights_m.fold(f64::NEG_INFINITY, f64::max));
-            (field.clone(), [ends.0, ends.1])
+            let (low_m, high_m) =
+                (heights_m.clone().fold(f64::INFINITY, f64::min), heights_m.fold(f64::NEG_INFINITY, f64::max));
+            let middle = Isometry3::translation(field.centre_m.x, field.centre_m.y, (low_m + high_m) / 2.0);
+            let half_m = Vector3::new(field.half_x_m, field.half_y_m, (high_m - low_m) / 2.0);
+            (field.clone(), box_planes(&middle, &half_m))
         });
         Self { field }
     }
@@ -32,7 +35,7 @@ impl Surface {
                 let distance_m = -ray.origin.z / ray.direction.z;
                 (distance_m > 0.0 && distance_m.is_finite()).then_some(Hit { distance_m, normal: Vector3::z() })
             }
-            Some((field, heights_m)) => hit_field(field, heights_m, ray),
+            Some((field, around)) => hit_field(field, around, ray),
         }
     }
 
@@ -44,16 +47,20 @@ impl Surface {
 }
 
 /// Returns the first hit of a ray on a height field: visits the cells below the ray in their order along it.
-fn hit_field(field: &HeightField, heights_m: &[f64; 2], ray: &Ray) -> Option<Hit> {
-    let least = Vector3::new(field.centre_m.x - field.half_x_m, field.centre_m.y - field.half_y_m, heights_m[0]);
-    let most = Vector3::new(field.centre_m.x + field.half_x_m, field.centre_m.y + field.half_y_m, heights_m[1]);
-    let (from, to) = within(ray, &least, &most)?;
+fn hit_field(field: &HeightField, around: &[Plane], ray: &Ray) -> Option<Hit> {
+    let (from, to, _) = passage(ray, around)?;
+    // A level field is a box without height.
+    let to = to + 1e-9;
+    if from > to || to < 0.0 {
+        return None;
+    }
+    let least = [field.centre_m.x - field.half_x_m, field.centre_m.y - field.half_y_m];
     let cells = [field.columns - 1, field.rows - 1];
-    let size_m = [0, 1].map(|axis| (most[axis] - least[axis]) / cells[axis] as f64);
-    let start = ray.at(from);
+    let size_m = [2.0 * field.half_x_m / cells[0] as f64, 2.0 * field.half_y_m / cells[1] as f64];
+    let start = ray.at(from.max(0.0));
     let mut cell = [0, 1].map(|axis| (((start[axis] - least[axis]) / size_m[axis]) as usize).min(cells[axis] - 1));
     loop {
-        if let Some(hit) = hit_cell(field, cell, size_m, &least, ray) {
+        if let Some(hit) = hit_cell(field, cell, size_m, least, ray) {
             return Some(hit);
         }
         // Distance to the next cell along each axis.
@@ -74,36 +81,18 @@ fn hit_field(field: &HeightField, heights_m: &[f64; 2], ray: &Ray) -> Option<Hit
     }
 }
 
-/// Returns the distances at which a ray enters and leaves a box.
-fn within(ray: &Ray, least: &Vector3<f64>, most: &Vector3<f64>) -> Option<(f64, f64)> {
-    let (mut from, mut to) = (0.0f64, f64::INFINITY);
-    for axis in 0..3 {
-        if ray.direction[axis] == 0.0 {
-            if !(least[axis]..=most[axis]).contains(&ray.origin[axis]) {
-                return None;
-            }
-            continue;
-        }
-        let ends = [least, most].map(|end| (end[axis] - ray.origin[axis]) / ray.direction[axis]);
-        from = from.max(ends[0].min(ends[1]));
-        to = to.min(ends[0].max(ends[1]));
-    }
-    // A level field is a box without height.
-    (from <= to + 1e-9).then_some((from, to + 1e-9))
-}
-
 /// Returns the first hit on the two triangles of a cell.
 fn hit_cell(
     field: &HeightField,
     [column, row]: [usize; 2],
     size_m: [f64; 2],
-    least: &Vector3<f64>,
+    least: [f64; 2],
     ray: &Ray,
 ) -> Option<Hit> {
     let corner = |columns: usize, rows: usize| {
         let (column, row) = (column + columns, row + rows);
         let height_m = field.heights_m[row * field.columns + column] + field.centre_m.z;
-        Point3::new(least.x + column as f64 * size_m[0], least.y + row as f64 * size_m[1], height_m)
+        Point3::new(least[0] + column as f64 * size_m[0], least[1] + row as f64 * size_m[1], height_m)
     };
     let (near, far) = (corner(0, 0), corner(1, 1));
     let hits = [hit_triangle(&[near, corner(1, 0), far], ray), hit_triangle(&[near, far, corner(0, 1)], ray)];

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
-use toml::Table;
 use treadmill_config::{Config, ConfigSource, KeyDoc};
 use treadmill_learner::training::is_changeable;
 
@@ -39,15 +38,15 @@ pub fn run(args: &ConfigArgs) -> anyhow::Result<()> {
     for pair in &args.set {
         source.set(pair)?;
     }
-    let text = source.build()?.to_toml();
+    let config = source.build()?;
     if args.key.is_none() && !args.json {
-        say(text.trim_end());
+        say(config.to_toml().trim_end());
         return Ok(());
     }
-    let values: Table = text.parse()?;
     let keys = wanted(args.key.as_deref())?;
     for (number, key) in keys.iter().enumerate() {
-        let value = value_of(&values, key.key);
+        let value = Some(config.value_of(key.key)).filter(|value| !value.is_empty());
+        let value = value.unwrap_or_else(|| "unset".to_string());
         if args.json {
             say(&as_json(key, &value));
         } else {
@@ -70,11 +69,6 @@ fn wanted(name: Option<&str>) -> anyhow::Result<Vec<KeyDoc>> {
         ConfigSource::default().value(name, "")?;
     }
     Ok(found)
-}
-
-fn value_of(values: &Table, key: &str) -> String {
-    let value = key.split_once('.').and_then(|(section, name)| values.get(section)?.get(name));
-    value.map_or_else(|| "unset".to_string(), ToString::to_string)
 }
 
 fn explained(key: &KeyDoc, value: &str) -> String {

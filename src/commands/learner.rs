@@ -7,12 +7,11 @@ use treadmill_humanoid::TaskRegistry;
 use crate::{
     diagnosis::certificates,
     launch::{
-        durability::StoredRun,
-        host::{self, ActorProcesses, HostOptions},
+        durability::LearnerRun,
+        host::HostOptions,
         metrics_page::MetricsArgs,
         prepared::{Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs},
-        startup,
     },
     shared::network_args::{NetworkArgs, check_run},
 };
@@ -50,18 +49,7 @@ pub fn run(args: LearnerArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let options = args.network.listening_options(role, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
-    if let Some(url) = &args.any.store {
-        let run = StoredRun {
-            launcher,
-            new: &args.new,
-            any: &args.any,
-            changes: &[],
-            name: args.run,
-            is_standby: args.standby,
-        };
-        return run.run(url, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics });
-    }
-    let mut start = startup::prepare(launcher, &args.new, &args.any, &[])?;
-    args.run.map_or(Ok(()), |run| start.set_name(run))?;
-    host::run(start, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics })
+    let (new, any) = (&args.new, &args.any);
+    let run = LearnerRun { launcher, new, any, changes: &[], name: args.run, is_standby: args.standby };
+    run.run(HostOptions { any, bus: &options, command: RunCommand::Learner, actors: None, metrics })
 }

@@ -7,13 +7,12 @@ use treadmill_humanoid::TaskRegistry;
 use crate::{
     diagnosis::certificates,
     launch::{
-        durability::StoredRun,
+        durability::LearnerRun,
         exit_code::Usage,
-        host::{self, ActorProcesses, HostOptions},
+        host::HostOptions,
         metrics_page::MetricsArgs,
         prepared::{Launcher, RunCommand},
-        run_args::{AnyRunArgs, NewRunArgs, changes},
-        startup,
+        run_args::{AnyRunArgs, NewRunArgs},
     },
     shared::network_args::NetworkArgs,
 };
@@ -50,19 +49,16 @@ pub fn run(args: TrainArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![listen], Vec::new())?;
     certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
-    let mut changes = changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    let counts = [("rollout.envs", args.envs), ("rollout.actors", args.actors)];
+    let mut changes: Vec<(_, toml::Value)> =
+        counts.into_iter().filter_map(|(key, count)| Some((key, count?.into()))).collect();
     if args.deterministic {
         if args.actors.is_some_and(|actors| actors > 1) {
             return Err(Usage("--deterministic runs one actor in lock-step; leave --actors out".to_string()).into());
         }
         changes.push(("run.deterministic", true.into()));
     }
-    let actors = ActorProcesses::Beside(args.actors);
-    if let Some(url) = &args.any.store {
-        let run =
-            StoredRun { launcher, new: &args.new, any: &args.any, changes: &changes, name: None, is_standby: false };
-        return run.run(url, HostOptions { any: &args.any, bus: &options, actors, metrics });
-    }
-    let start = startup::prepare(launcher, &args.new, &args.any, &changes)?;
-    host::run(start, HostOptions { any: &args.any, bus: &options, actors, metrics })
+    let (new, any) = (&args.new, &args.any);
+    let run = LearnerRun { launcher, new, any, changes: &changes, name: None, is_standby: false };
+    run.run(HostOptions { any, bus: &options, command: RunCommand::Train, actors: args.actors, metrics })
 }

@@ -1,4 +1,5 @@
-//! Runs a learner whose state is in a store: begins the run, or follows it and leads once its leader is gone.
+//! Runs the learner of a command. If its state is in a store: begins the run, or follows it and leads once its leader is
+//! gone.
 
 use std::time::Duration;
 
@@ -29,13 +30,13 @@ use crate::launch::{
 /// Interval of reading the manifest and of looking for tokens.
 const POLL: Duration = Duration::from_millis(500);
 
-/// Flags of a run in a store.
-pub struct StoredRun<'a> {
+/// Learner that a command starts.
+pub struct LearnerRun<'a> {
     /// This process.
     pub launcher: Launcher<'a>,
     /// Flags of new runs.
     pub new: &'a NewRunArgs,
-    /// Flags of new and resumed runs; `store` is given.
+    /// Flags of new and resumed runs.
     pub any: &'a AnyRunArgs,
     /// Keys set by further flags.
     pub changes: &'a [(&'static str, toml::Value)],
@@ -45,18 +46,23 @@ pub struct StoredRun<'a> {
     pub is_standby: bool,
 }
 
-impl StoredRun<'_> {
+impl LearnerRun<'_> {
     /// Runs until the run is complete or stopped.
     ///
     /// # Errors
     /// If flags are refused, or the store or the training fails.
-    pub fn run(&self, url: &str, options: HostOptions<'_>) -> anyhow::Result<()> {
+    pub fn run(&self, options: HostOptions<'_>) -> anyhow::Result<()> {
+        let Some(url) = &self.any.store else {
+            let mut start = startup::prepare(self.launcher, self.new, self.any, self.changes)?;
+            self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
+            return host::run(start, options);
+        };
         let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
         memory::keep_freed();
         async_runtime::run(async {
             let host = Host::open(options).await?;
             let outcome = self.serve(&store, &host).await;
-            host.close();
+            host.bus.close();
             outcome
         })
     }
@@ -139,7 +145,7 @@ impl StoredRun<'_> {
         let (prepared, mut lock) = match block_in_place(|| self.resume(store, &loaded))? {
             Start::Ready(prepared, lock) => (*prepared, lock),
             Start::Finished(folder, state) => {
-                host::print_finished(&folder, *state, host.options());
+                host::print_finished(&folder, *state, &host.options);
                 return Ok(());
             }
         };
@@ -165,7 +171,7 @@ impl StoredRun<'_> {
     async fn follow(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<Option<LoadedState>> {
         let mut standby = Standby::new(store, self.is_standby);
         let _mark = StandbyMark::open(&host.bus)?;
-        say(&format!("following {store}, listening {}", host.endpoints().join(", ")));
+        say(&format!("following {store}, listening {}", host.endpoints.join(", ")));
         while !host.shutdown.asked() {
             match standby.poll(host).await? {
                 NextMove::Wait => host.pause(POLL).await,

@@ -25,7 +25,7 @@ use super::{
     metrics_page::MetricsListener,
     model,
     output::say,
-    prepared::{self, FirstState, Prepared, RunSetup, Start},
+    prepared::{self, FirstState, Prepared, RunCommand, RunSetup, Start},
     restart::restart,
     router_session,
     run_args::AnyRunArgs,
@@ -50,37 +50,22 @@ pub struct HostOptions<'a> {
     pub any: &'a AnyRunArgs,
     /// Options of the bus.
     pub bus: &'a BusOptions,
-    /// Actor processes to start.
-    pub actors: ActorProcesses,
+    /// Command that this process runs.
+    pub command: RunCommand,
+    /// Actor processes of `train`, if its flag was given; else the configuration decides.
+    pub actors: Option<u32>,
     /// Socket of the metrics page.
     pub metrics: Option<MetricsListener>,
 }
 
-/// Actor processes that a command starts.
-#[derive(Clone, Copy, Debug)]
-pub enum ActorProcesses {
-    /// None, as `learner`: actors join by themselves.
-    None,
-    /// Those of `train`: as many as this flag says, or else the configuration.
-    Beside(Option<u32>),
-}
-
-impl ActorProcesses {
-    /// Returns how many there are for a configuration; `None` if they join by themselves.
-    fn count(self, config: &Config) -> Option<u32> {
-        let Self::Beside(flag) = self else { return None };
-        let wanted = flag.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
-        Some(prepared::actor_processes(wanted, config.rollout.envs))
-    }
-}
-
 impl HostOptions<'_> {
-    /// Returns the command that this process runs.
-    fn command(&self) -> &'static str {
-        match self.actors {
-            ActorProcesses::None => "learner",
-            ActorProcesses::Beside(_) => "train",
+    /// Returns how many actor processes this process starts; `None` for `learner`, whose actors join by themselves.
+    fn actor_processes(&self, config: &Config) -> Option<u32> {
+        if self.command == RunCommand::Learner {
+            return None;
         }
+        let wanted = self.actors.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
+        Some(prepared::actor_processes(wanted, config.rollout.envs))
     }
 }
 
@@ -98,7 +83,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
     let outcome = async_runtime::run(async {
         let host = Host::open(options).await?;
         let outcome = host.lead(prepared, &mut lock, None).await;
-        host.close();
+        host.bus.close();
         outcome
     });
     if outcome.is_err() {
@@ -109,7 +94,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
 
 /// Reports a run that has all its steps.
 pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOptions<'_>) {
-    let resumed_by = prepared::resume_command(options.command(), folder, options.any.store.as_deref());
+    let resumed_by = prepared::resume_command(options.command.name(), folder, options.any.store.as_deref());
     banner::print_finished(&state, &resumed_by);
     if options.any.json {
         say(&as_json(&TrainingSummary::finished(state)));
@@ -118,10 +103,12 @@ pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOp
 
 /// Learner process: its session, signals and metrics page.
 pub struct Host<'a> {
-    options: HostOptions<'a>,
+    /// Flags and options of this process.
+    pub options: HostOptions<'a>,
     /// Session, which listens.
     pub bus: Bus,
-    endpoints: Vec<String>,
+    /// Endpoints on which the session listens.
+    pub endpoints: Vec<String>,
     /// Requested by a signal.
     pub shutdown: Shutdown,
     prometheus: PrometheusMetrics,
@@ -147,16 +134,6 @@ impl<'a> Host<'a> {
         Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, run })
     }
 
-    /// Flags and options of this process.
-    pub fn options(&self) -> &HostOptions<'a> {
-        &self.options
-    }
-
-    /// Endpoints on which the session listens.
-    pub fn endpoints(&self) -> &[String] {
-        &self.endpoints
-    }
-
     /// Waits for this time, or until this process is to stop.
     pub async fn pause(&self, time: Duration) {
         tokio::select! {
@@ -174,11 +151,6 @@ impl<'a> Host<'a> {
         restart(&[("--listen", self.endpoints.clone()), ("--prometheus", page)], RESTART_PAUSE)
     }
 
-    /// Closes the session.
-    pub fn close(&self) {
-        self.bus.close();
-    }
-
     /// Names the run on the metrics page, at the first call.
     pub fn name_run(&self, run: &str) {
         self.run.get_or_init(|| run.to_string());
@@ -194,14 +166,14 @@ impl<'a> Host<'a> {
         lock: &mut RunLock,
         leadership: Option<Leadership>,
     ) -> anyhow::Result<()> {
-        let command = self.options.command();
+        let command = self.options.command.name();
         let folder = prepared.setup.folder.clone();
         let text = self.endpoints.join("\n") + "\n";
         atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
         lock.set_endpoint(&self.endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
         self.name_run(&prepared.setup.run);
         let (credentials, actors) =
-            (self.options.bus.credentials.as_ref(), self.options.actors.count(&prepared.setup.config));
+            (self.options.bus.credentials.as_ref(), self.options.actor_processes(&prepared.setup.config));
         banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);
         // Stays open during training, because actors that join later register their task too.
         let Prepared { mut setup, state } = prepared;

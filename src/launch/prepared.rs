@@ -159,6 +159,16 @@ pub enum RunCommand {
     Learner,
 }
 
+impl RunCommand {
+    /// Returns the name of the command.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Train => "train",
+            Self::Learner => "learner",
+        }
+    }
+}
+
 /// Sets what `run.deterministic` requires.
 pub fn complete(config: &mut Config) {
     if config.run.deterministic {

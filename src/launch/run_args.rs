@@ -145,8 +145,3 @@ fn task_keys(name: &str, tasks: &TaskRegistry) -> Result<Vec<(&'static str, toml
     }
     Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])
 }
-
-/// Returns the configuration keys of the flags that were given.
-pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
-    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
-}

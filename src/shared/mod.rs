@@ -6,7 +6,7 @@
 //! - [`network_args`]: flags of the network.
 //! - [`learner_address`]: flags that locate a learner, and a session with it.
 //! - `existing_file`: reads a flag that names a file.
-//! - `foreign_text`: makes text from another machine safe to print.
+//! - `foreign_text`: makes text from another machine safe to print, and shortens names.
 //! - [`viewer_args`]: flags of `watch`.
 
 pub(crate) mod existing_file;

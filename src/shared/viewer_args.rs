@@ -40,7 +40,7 @@ pub struct ViewerArgs {
     /// MJCF file or card of the robot on this machine, whose visual meshes are shown instead of the colliding shapes.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Steer the robot by keys and gamepad while it moves, in real time; for policies that follow commands.
+    /// Steer the robot by keys while it moves, in real time; for policies that follow commands.
     #[arg(long, conflicts_with_all = ["live", "episodes"])]
     pub steer: bool,
     /// Keep the camera still; by default it follows the torso.
@@ -55,11 +55,8 @@ pub struct ViewerArgs {
 #[derive(Args, Clone, Debug)]
 pub struct ViewerOutputArgs {
     /// Write a file for Rerun's viewer instead; open it by `rerun FILE`.
-    #[arg(long, value_name = "FILE", conflicts_with = "native")]
+    #[arg(long, value_name = "FILE")]
     pub rrd: Option<PathBuf>,
-    /// Open Rerun's native viewer instead; the program `rerun` of the same version must be on the PATH.
-    #[arg(long)]
-    pub native: bool,
     /// Address to serve the viewer on. Beyond loopback, anyone who reaches it can watch and draw, so it needs --insecure.
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     pub bind: IpAddr,

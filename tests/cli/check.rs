@@ -44,23 +44,16 @@ fn check(folder: &Path, args: &[&str]) -> Output {
     run(folder, &[&["check", "--json"], args].concat())
 }
 
-/// Runs the check in a shell after the commands of `before`.
-fn check_after(folder: &Path, before: &str, args: &str) -> Output {
-    let binary = env!("CARGO_BIN_EXE_treadmill");
-    let script = format!("{before} exec {binary} check --json {args}");
-    Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("a shell")
+/// Runs the check in a shell after the commands of `before`. `wrapper` starts the shell.
+fn check_after(folder: &Path, wrapper: &[&str], before: &str, args: &str) -> Output {
+    let script = format!("{before} exec {} check --json {args}", env!("CARGO_BIN_EXE_treadmill"));
+    let words = [wrapper, &["sh", "-c", &script]].concat();
+    Command::new(words[0]).args(&words[1..]).current_dir(folder).output().expect("a shell")
 }
 
-/// Runs the check likewise in new namespaces; `None` if the machine does not allow them.
-fn check_apart(folder: &Path, flags: &str, before: &str, args: &str) -> Option<Output> {
-    let allowed = Command::new("unshare").args([flags, "true"]).output().is_ok_and(|tried| tried.status.success());
-    if !allowed {
-        skip(&format!("`unshare {flags}` is not allowed here"));
-        return None;
-    }
-    let binary = env!("CARGO_BIN_EXE_treadmill");
-    let script = format!("{before} exec {binary} check --json {args}");
-    Some(Command::new("unshare").args([flags, "sh", "-c", &script]).current_dir(folder).output().expect("it starts"))
+/// Returns whether a command succeeds.
+fn works(program: &str, args: &[&str]) -> bool {
+    Command::new(program).args(args).output().is_ok_and(|tried| tried.status.success())
 }
 
 #[test]
@@ -91,32 +84,37 @@ fn an_unwritable_folder_is_reported() {
 fn a_full_or_nearly_full_disk_is_reported() {
     let (folder, _) = folders();
     fs::create_dir(folder.path().join("small")).unwrap();
-    let nearly = "mount -t tmpfs -o size=50m none small &&";
-    if let Some(output) = check_apart(folder.path(), "-rm", nearly, "--run-dir small/run") {
-        assert_problem(&output, "disk", &["52 MB free", "free some space"]);
+    if !works("unshare", &["-rm", "true"]) {
+        return skip("`unshare -rm` is not allowed here");
     }
+    let nearly = "mount -t tmpfs -o size=50m none small &&";
     let full = "mount -t tmpfs -o size=64k none small && cat /dev/zero > small/fill 2> /dev/null;";
-    if let Some(output) = check_apart(folder.path(), "-rm", full, "--run-dir small/run") {
-        assert_problem(&output, "disk", &["cannot be written to", "No space left"]);
+    for (before, parts) in
+        [(nearly, ["52 MB free", "free some space"]), (full, ["cannot be written to", "No space left"])]
+    {
+        let output = check_after(folder.path(), &["unshare", "-rm"], before, "--run-dir small/run");
+        assert_problem(&output, "disk", &parts);
     }
 }
 
 #[test]
 fn too_few_open_files_are_reported() {
     let (folder, _) = folders();
-    assert_problem(&check_after(folder.path(), "ulimit -n 64;", ""), "open files", &["64 at most", "ulimit -Hn 4096"]);
+    assert_problem(
+        &check_after(folder.path(), &[], "ulimit -n 64;", ""),
+        "open files",
+        &["64 at most", "ulimit -Hn 4096"],
+    );
     assert!(of(&check(folder.path(), &["--actors", "100000"]), "open files").1.contains("100000 actors"));
 }
 
 #[test]
 fn a_wrong_clock_is_reported() {
     let (folder, _) = folders();
-    if !Command::new("faketime").arg("--version").output().is_ok_and(|version| version.status.success()) {
+    if !works("faketime", &["--version"]) {
         return skip("faketime is not installed");
     }
-    let binary = env!("CARGO_BIN_EXE_treadmill");
-    let args = ["1990-05-01 12:00:00", binary, "check", "--json"];
-    let output = Command::new("faketime").args(args).current_dir(folder.path()).output().expect("it starts");
+    let output = check_after(folder.path(), &["faketime", "1990-05-01 12:00:00"], "", "");
     assert_problem(&output, "clock", &["1990-05-01", "timedatectl"]);
 }
 

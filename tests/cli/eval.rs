@@ -8,8 +8,7 @@ use treadmill_learner::checkpoint::{encoding, load_file};
 #[test]
 fn the_first_and_every_nth_step_are_printed() {
     let (folder, _) = folders();
-    let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = done(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
     let text = stdout(&output);
     let steps: Vec<&str> = text.lines().filter(|line| line.starts_with("episode   1")).collect();
     assert!(
@@ -72,6 +71,10 @@ fn the_checkpoint_that_plays_is_named() {
         assert_eq!((&printed["checkpoint"], &printed["checkpoint_env_steps"]), (&"best".into(), &2048.into()));
     }
     assert!(stdout(&play(&["--verbose"])).contains("limit overshoot"));
+    // A bundle can be played without its run.
+    let bundle = run.join("checkpoints/latest.bundle");
+    let played = self::run(folder.path(), &["eval", bundle.to_str().unwrap(), "--episodes", "1", "--json"]);
+    assert_eq!(last_json(&played)["episodes"], 1);
 }
 
 #[test]
@@ -82,9 +85,9 @@ fn arguments_without_effect_are_refused() {
     let eval = |args: &[&str]| self::run(folder.path(), &[&["eval"], args].concat());
     assert_refused(&eval(&[path, "--agent", "random"]), 2, &["leave RUN out"]);
     assert_refused(&eval(&["--agent", "random", "--checkpoint", "best"]), 2, &["leave --checkpoint out"]);
-    assert!(self::run(folder.path(), &["export", path, "--safetensors", "a.safetensors"]).status.success());
+    done(folder.path(), &["export", path, "--safetensors", "a.safetensors"]);
     assert_refused(&eval(&["a.safetensors", "--checkpoint", "best"]), 2, &["a.safetensors", "leave --checkpoint out"]);
-    assert!(self::run(folder.path(), &["export", path, "--onnx", "a.onnx"]).status.success());
+    done(folder.path(), &["export", path, "--onnx", "a.onnx"]);
     assert_refused(&eval(&["a.onnx"]), 2, &["a.onnx", "ONNX", "--safetensors"]);
     assert_refused(&eval(&[path, "--json", "--verbose"]), 2, &["--json", "--verbose"]);
 }
@@ -106,11 +109,9 @@ fn episodes_are_randomised_only_on_request() {
     let run_name = run.to_str().unwrap();
     let train = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run_name];
     let pushes = ["--set", "randomisation.push_mps=[2, 3]", "--set", "randomisation.push_interval_s=[0.1, 0.2]"];
-    let trained = self::run(folder.path(), &[&train[..], &pushes[..]].concat());
-    assert!(trained.status.success(), "{}", stderr(&trained));
+    done(folder.path(), &[&train[..], &pushes[..]].concat());
     let play = |more: &[&str]| {
-        let output = self::run(folder.path(), &[&["eval", run_name, "--episodes", "2", "--json"], more].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
+        let output = done(folder.path(), &[&["eval", run_name, "--episodes", "2", "--json"], more].concat());
         last_json(&output)
     };
     let (plain, pushed) = (play(&[]), play(&["--randomised"]));
@@ -120,19 +121,10 @@ fn episodes_are_randomised_only_on_request() {
     assert_eq!(plain, play(&["--set", "randomisation.push_mps=[0, 0]"]));
     assert_eq!(play(&["--set", "env.max_episode_steps=3"])["length_mean"], 3.0);
 
-    let refused = |args: &[&str], parts: &[&str]| assert_refused(&self::run(folder.path(), args), 2, parts);
+    let refused = |args: &[&str], parts: &[&str]| assert_usage(folder.path(), args, parts);
     refused(&["eval", "--agent", "random", "--randomised"], &["--randomised", "randomised nothing", "--set"]);
     refused(&["eval", run_name, "--set", "ppo.gamma=0.5"], &["ppo.gamma=0.5", "[env], [velocity]"]);
     refused(&["eval", run_name, "--set", "randomisation.push_mps=[3, 2]"], &["push_mps", "[smallest, largest]"]);
-}
-
-#[test]
-fn a_bundle_file_can_be_played_without_its_run() {
-    let (folder, run) = folders();
-    trained(folder.path(), &run);
-    let file = run.join("checkpoints/latest.bundle");
-    let output = self::run(folder.path(), &["eval", file.to_str().unwrap(), "--episodes", "1", "--json"]);
-    assert_eq!(last_json(&output)["episodes"], 1);
 }
 
 #[test]

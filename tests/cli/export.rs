@@ -10,8 +10,7 @@ use crate::support::*;
 use serde_json::Value;
 
 fn export(folder: &Path, run: &str, file: &Path) -> Vec<u8> {
-    let output = self::run(folder, &["export", run, "--safetensors", file.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = done(folder, &["export", run, "--safetensors", file.to_str().unwrap()]);
     assert!(stdout(&output).contains(file.to_str().unwrap()));
     fs::read(file).unwrap()
 }
@@ -81,8 +80,7 @@ fn an_exported_policy_plays_the_episodes_of_its_run_and_every_export_is_identica
 
     let play = |what: &str, more: &[&str]| {
         let args = [&["eval", what, "--episodes", "3", "--seed", "5", "--json"], more].concat();
-        let output = self::run(folder.path(), &args);
-        assert!(output.status.success(), "{}", stderr(&output));
+        let output = done(folder.path(), &args);
         last_json(&output)
     };
     let mut result = play("another-name", &[]);
@@ -104,20 +102,16 @@ fn the_file_alone_determines_the_actions() {
     assert!(facts["settings"].as_str().unwrap().contains("healthy_reward = 5.0"));
 
     let args = ["eval", file.to_str().unwrap(), "--episodes", "1", "--trace", trace.to_str().unwrap()];
-    assert!(self::run(folder.path(), &args).status.success());
-    let numbers =
-        |value: &Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
-    let lines = fs::read_to_string(&trace).unwrap();
-    let mut largest = 0.0f64;
-    for line in lines.lines() {
-        let step: Value = serde_json::from_str(line).unwrap();
+    done(folder.path(), &args);
+    let (steps, mut largest) = (json_lines(&trace), 0.0f64);
+    for step in &steps {
         let expected = tensors.act(&facts, &numbers(&step["observation"]));
         for (found, expected) in numbers(&step["action"]).iter().zip(&expected) {
             assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
             largest = largest.max(found.abs());
         }
     }
-    assert!(lines.lines().count() > 5 && largest > 1e-3, "{largest}");
+    assert!(steps.len() > 5 && largest > 1e-3, "{largest}");
 }
 
 #[test]
@@ -151,8 +145,8 @@ fn unusable_files_are_refused_by_name_and_reason() {
     let output =
         self::run(folder.path(), &["export", run.to_str().unwrap(), "--safetensors", nowhere.to_str().unwrap()]);
     assert_refused(&output, 1, &["no/such/folder/x.safetensors", "its folder"]);
-    assert_refused(&self::run(folder.path(), &["export", "nowhere", "--safetensors", "x"]), 2, &["nowhere"]);
-    assert_refused(&self::run(folder.path(), &["export", run.to_str().unwrap()]), 2, &["--safetensors"]);
+    assert_usage(folder.path(), &["export", "nowhere", "--safetensors", "x"], &["nowhere"]);
+    assert_usage(folder.path(), &["export", run.to_str().unwrap()], &["--safetensors", "--onnx"]);
 }
 
 /// Replaces the first `from` by `to` of the same length.
@@ -168,20 +162,18 @@ fn other_programs_compute_the_same_actions() {
     let run = run.to_str().unwrap();
     let (model, file) = (folder.path().join("policy.onnx"), folder.path().join("policy.safetensors"));
     let files = ["--onnx", model.to_str().unwrap(), "--safetensors", file.to_str().unwrap()];
-    let output = self::run(folder.path(), &[&["export", run], &files[..]].concat());
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = done(folder.path(), &[&["export", run], &files[..]].concat());
     assert_eq!(stdout(&output).lines().count(), 2, "{}", stdout(&output));
     let trace = folder.path().join("trace.jsonl");
     let args = ["eval", run, "--episodes", "80", "--trace", trace.to_str().unwrap(), "--json"];
-    assert!(self::run(folder.path(), &args).status.success());
+    done(folder.path(), &args);
     let wanted = wanted(&file, &trace);
     assert!(wanted.len() >= 1000, "{} observations", wanted.len());
 
     // The example, which uses no code of this project.
     let observations = folder.path().join("observations.jsonl");
-    let lines = fs::read_to_string(&trace).unwrap();
-    let of_line = |line: &str| serde_json::from_str::<Value>(line).unwrap()["observation"].to_string() + "\n";
-    fs::write(&observations, lines.lines().map(of_line).collect::<String>()).unwrap();
+    let line = |step: &Value| step["observation"].to_string() + "\n";
+    fs::write(&observations, json_lines(&trace).iter().map(line).collect::<String>()).unwrap();
     let output = Command::new(example("play_policy")).arg(&file).stdin(fs::File::open(&observations).unwrap()).output();
     compare(&wanted, &output.unwrap());
 
@@ -195,19 +187,14 @@ fn wanted(policy: &Path, trace: &Path) -> Vec<Vec<f64>> {
     let Tensors { header, .. } = Tensors::parse(&fs::read(policy).unwrap());
     let facts: Value = serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap();
     let (low, high) = (numbers(&facts["action"]["low"]), numbers(&facts["action"]["high"]));
-    let of_line = |line: &str| {
-        let shares = numbers(&serde_json::from_str::<Value>(line).unwrap()["action"]);
+    let motors = |step: &Value| {
         // A share of -1 is the low end, 1 the high one.
         let stretch = |(motor, share): (usize, f64)| {
             low[motor] + (share.clamp(-1.0, 1.0) + 1.0) / 2.0 * (high[motor] - low[motor])
         };
-        shares.into_iter().enumerate().map(stretch).collect()
+        numbers(&step["action"]).into_iter().enumerate().map(stretch).collect()
     };
-    fs::read_to_string(trace).unwrap().lines().map(of_line).collect()
-}
-
-fn numbers(list: &Value) -> Vec<f64> {
-    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+    json_lines(trace).iter().map(motors).collect()
 }
 
 /// Compares lines of actions that another program wrote.
@@ -229,10 +216,4 @@ fn example(name: &str) -> PathBuf {
         "`cargo test` builds it, but not `cargo test --test cli`: run `cargo build --release --examples` first"
     );
     program
-}
-
-#[test]
-fn an_output_flag_is_required() {
-    let (folder, _) = folders();
-    assert_refused(&self::run(folder.path(), &["export", "a"]), 2, &["--safetensors", "--onnx"]);
 }

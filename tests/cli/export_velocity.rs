@@ -9,7 +9,6 @@ use std::{
 use crate::support::*;
 use serde_json::{Value, json};
 
-const ROBOT_XML: &str = include_str!("../../actor/humanoid/assets/g1-like-servos.xml");
 /// Waist and wrists are held; all else has the gains of the file, apart from the knees.
 const CARD: &str = "
 model = 'robot.xml'
@@ -37,27 +36,14 @@ const IDS: [usize; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 15, 16, 17, 18, 
 const KNEE: usize = 3;
 const OF_POLICY: usize = 2 * (3 + 3 + 3 + 3 * IDS.len() + 2);
 
-/// Trains a policy of a robot with a card for a few steps.
-fn trained_robot(folder: &Path, run: &Path) {
-    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
-    fs::write(folder.join("robot.toml"), CARD).unwrap();
-    let mut args = vec!["train", "--preset", "smoke", "--steps", "2048", "--actors", "1", "--model", "robot.toml"];
-    for pair in [
-        "env.task=\"velocity\"",
-        "env.control_step_s=0.02",
-        "env.substeps=5",
-        "velocity.history=2",
-        "velocity.gait_period_s=0.7",
-        "velocity.lin_vel_x_mps=[-0.4,0.9]",
-        "randomisation.push_mps=[0.1,0.5]",
-        "policy.hidden=[32,16]",
-    ] {
-        args.extend(["--set", pair]);
-    }
-    args.extend(["--run-dir", run.to_str().unwrap()]);
-    let output = self::run(folder, &args);
-    assert!(output.status.success(), "{}", stderr(&output));
-}
+/// Keys of the policy.
+const KEYS: [&str; 5] = [
+    "velocity.history=2",
+    "velocity.gait_period_s=0.7",
+    "velocity.lin_vel_x_mps=[-0.4,0.9]",
+    "randomisation.push_mps=[0.1,0.5]",
+    "policy.hidden=[32,16]",
+];
 
 /// Returns an entry of an ONNX file's metadata: a message with the key as field 1 and the value as field 2.
 fn metadata(model: &[u8], key: &str) -> String {
@@ -76,10 +62,6 @@ fn metadata(model: &[u8], key: &str) -> String {
     String::from_utf8(rest[..length].to_vec()).unwrap()
 }
 
-fn numbers(list: &Value) -> Vec<f64> {
-    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
-}
-
 /// Returns the list in the one line of a text that begins with `key`.
 fn in_line<'a>(text: &'a str, key: &str) -> Vec<&'a str> {
     let mut lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(key)?.strip_prefix(": ["));
@@ -90,12 +72,11 @@ fn in_line<'a>(text: &'a str, key: &str) -> Vec<&'a str> {
 #[test]
 fn a_velocity_policy_leaves_with_all_that_a_controller_needs() {
     let (folder, run) = folders();
-    trained_robot(folder.path(), &run);
+    trained_robot(folder.path(), &run, CARD, &KEYS);
     let export = |onnx: &str, deploy: &str| -> (Vec<u8>, String) {
         let (onnx, deploy) = (folder.path().join(onnx), folder.path().join(deploy));
         let files = ["--onnx", onnx.to_str().unwrap(), "--deploy", deploy.to_str().unwrap()];
-        let output = self::run(folder.path(), &[&["export", run.to_str().unwrap(), "--json"], &files[..]].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
+        let output = done(folder.path(), &[&["export", run.to_str().unwrap(), "--json"], &files[..]].concat());
         let written = last_json(&output)["files"].as_array().unwrap().clone();
         assert_eq!(written[1]["bytes"], fs::metadata(&deploy).unwrap().len());
         (fs::read(&onnx).unwrap(), fs::read_to_string(&deploy).unwrap())
@@ -176,9 +157,8 @@ fn check_deploy(yaml: &str) {
 fn check_python(folder: &Path, run: &Path) {
     let trace = folder.join("trace.jsonl");
     let args = ["eval", run.to_str().unwrap(), "--episodes", "3", "--trace", trace.to_str().unwrap()];
-    assert!(self::run(folder, &args).status.success());
-    let lines = fs::read_to_string(&trace).unwrap();
-    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    done(folder, &args);
+    let lines = json_lines(&trace);
     // What the critic alone sees is no input.
     let seen = |line: &Value| json!({"observation": numbers(&line["observation"])[..OF_POLICY]}).to_string() + "\n";
     fs::write(&trace, lines.iter().map(seen).collect::<String>()).unwrap();

@@ -1,6 +1,6 @@
 //! `eval --film` and `--png`: pictures without a window.
 
-use std::{fs, os::unix::fs::PermissionsExt, path::Path};
+use std::{fs, path::Path};
 
 use crate::support::*;
 
@@ -37,8 +37,7 @@ fn an_episode_becomes_an_animation_and_single_pictures() {
     let (folder, _) = folders();
     let args =
         ["eval", "--agent", "random", "--episodes", "2", "--film", "a.gif", "--png", "frames", "--size", "96x64"];
-    let output = run(folder.path(), &[&args[..], &["--fps", "20", "--json"]].concat());
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = done(folder.path(), &[&args[..], &["--fps", "20", "--json"]].concat());
     assert_eq!(stdout(&output).lines().count(), 1, "--json is one line");
     let screens = screens(&folder.path().join("a.gif"));
     assert!(screens.len() > 3, "random actions stand for a moment: {}", screens.len());
@@ -61,35 +60,22 @@ fn an_episode_becomes_an_animation_and_single_pictures() {
 }
 
 #[test]
-fn the_film_can_start_later_and_end_earlier() {
+fn films_have_25_pictures_per_second_and_can_start_later_and_end_earlier() {
     let (folder, _) = folders();
-    let film = |name: &str, more: &[&str]| {
-        let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--film", name];
-        let output = run(folder.path(), &[&args[..], more].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
-        assert!(stdout(&output).contains("pictures of 64x48"), "{}", stdout(&output));
-        screens(&folder.path().join(name))
+    let film = |name: &str, episodes: f64, more: &[&str]| {
+        let (count, name) = (episodes.to_string(), &format!("{name}.gif"));
+        let args = ["eval", "--agent", "random", "--episodes", &count, "--size", "64x48", "--film", name, "--json"];
+        let steps = last_json(&done(folder.path(), &[&args[..], more].concat()))["length_mean"].as_f64().unwrap();
+        (screens(&folder.path().join(name)).len() as f64, steps * episodes * 0.015 * 25.0)
     };
-    let whole = film("whole.gif", &[]);
-    assert_eq!(film("short.gif", &["--seconds", "0.1"]).len(), 5);
-    let late = film("late.gif", &["--from-s", "0.1"]);
-    assert!(late.len() < whole.len() && late.len() + 6 >= whole.len(), "{} of {}", late.len(), whole.len());
-}
+    let ((one, of_one), (three, of_three)) = (film("one", 1.0, &[]), film("three", 3.0, &[]));
+    assert!((one - of_one).abs() <= 1.0, "{one} {of_one}");
+    assert!((three - of_three).abs() <= 3.0 && three > one, "{three} {of_three}");
 
-#[test]
-fn every_episode_is_shown_at_25_pictures_per_second() {
-    let (folder, _) = folders();
-    let film = |episodes: &str, name: &str| {
-        let args = ["eval", "--agent", "random", "--episodes", episodes, "--size", "64x48", "--film", name, "--json"];
-        let output = run(folder.path(), &args);
-        assert!(output.status.success(), "{}", stderr(&output));
-        let steps = last_json(&output)["length_mean"].as_f64().unwrap() * episodes.parse::<f64>().unwrap();
-        (screens(&folder.path().join(name)).len() as f64, steps * 0.015 * 25.0)
-    };
-    let (one, wanted) = film("1", "one.gif");
-    assert!((one - wanted).abs() <= 1.0, "{one} {wanted}");
-    let (three, wanted) = film("3", "three.gif");
-    assert!((three - wanted).abs() <= 3.0 && three > one, "{three} {wanted}");
+    assert_eq!(film("short", 1.0, &["--fps", "50", "--seconds", "0.1"]).0, 5.0);
+    let (whole, late) =
+        (film("whole", 1.0, &["--fps", "50"]).0, film("late", 1.0, &["--fps", "50", "--from-s", "0.1"]).0);
+    assert!(late < whole && late + 6.0 >= whole, "{late} of {whole}");
 }
 
 #[test]
@@ -103,13 +89,9 @@ fn a_video_is_written_by_ffmpeg() {
     assert_refused(&film("/nowhere"), 2, &["--film a.mp4", "ffmpeg", "not installed", ".gif"]);
     // A program that copies its input into the file that its last argument names.
     let tools = folder.path().join("tools");
-    let install = |text: &str| {
-        fs::create_dir_all(&tools).unwrap();
-        fs::write(tools.join("ffmpeg"), text).unwrap();
-        fs::set_permissions(tools.join("ffmpeg"), PermissionsExt::from_mode(0o755)).unwrap();
-    };
+    fs::create_dir(&tools).unwrap();
     let path = format!("{}:/usr/bin:/bin", tools.display());
-    install("#!/bin/sh\necho \"$@\" >arguments\nfor last; do :; done\nexec cat >\"$last\"\n");
+    install(&tools.join("ffmpeg"), "#!/bin/sh\necho \"$@\" >arguments\nfor last; do :; done\nexec cat >\"$last\"\n");
     let output = film(&path);
     assert!(output.status.success(), "{}", stderr(&output));
     let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
@@ -117,7 +99,7 @@ fn a_video_is_written_by_ffmpeg() {
     let bytes = fs::read(folder.path().join("a.mp4")).unwrap().len();
     assert!(bytes > 3 * 64 * 48 * 3 && bytes.is_multiple_of(64 * 48 * 3), "{bytes} bytes");
     fs::remove_file(folder.path().join("a.mp4")).unwrap();
-    install("#!/bin/sh\ncat >/dev/null\necho 'unknown encoder' >&2\nexit 1\n");
+    install(&tools.join("ffmpeg"), "#!/bin/sh\ncat >/dev/null\necho 'unknown encoder' >&2\nexit 1\n");
     assert_refused(&film(&path), 1, &["ffmpeg failed: unknown encoder"]);
     assert!(!folder.path().join("a.mp4").exists());
 }

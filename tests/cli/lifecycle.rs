@@ -27,8 +27,7 @@ fn a_second_writer_is_refused_until_the_first_is_killed() {
     first.signal(libc::SIGKILL);
     first.wait();
     let steps = last_value(&run, "time/total_timesteps").unwrap() as u64 + 2048;
-    let resumed = self::run(folder.path(), &["train", "--resume", path, "--steps", &steps.to_string()]);
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    done(folder.path(), &["train", "--resume", path, "--steps", &steps.to_string()]);
     assert_eq!(last_json(&self::run(folder.path(), &["runs", "--json", path]))["state"], "stopped");
 }
 
@@ -65,8 +64,7 @@ fn a_nearer_goal_than_the_saved_one_ends_only_this_start() {
     first.wait();
     let reached = last_value(&run, "time/total_timesteps").unwrap() as u64;
     let goal = (reached + 1024).to_string();
-    let resumed = self::run(folder.path(), &["train", "--resume", path, "--steps", &goal]);
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    done(folder.path(), &["train", "--resume", path, "--steps", &goal]);
     assert!(last_value(&run, "time/total_timesteps").unwrap() as u64 >= reached + 1024);
     assert_eq!(steps_saved(&run).to_string(), ENDLESS);
 }
@@ -89,7 +87,7 @@ fn a_service_begins_or_goes_on_with_one_command_line() {
     assert!(finished.status.success() && stdout(&finished).contains("is finished"), "{}", stdout(&finished));
     let other = service("9000", &["--set", "ppo.gamma=0.5"]);
     assert_refused(&other, 2, &["`ppo.gamma` is 0.5 by your flags and 0.99", "in the saved run"]);
-    assert_refused(&self::run(folder.path(), &["train", "--resume-or-start"]), 2, &["--run-dir"]);
+    assert_usage(folder.path(), &["train", "--resume-or-start"], &["--run-dir"]);
 }
 
 #[test]
@@ -134,15 +132,14 @@ fn status_finds_the_live_runs_of_this_folder_and_knows_the_others() {
 }
 
 #[test]
-fn a_failed_start_leaves_no_folder() {
+fn a_port_in_use_is_refused_by_name_and_leaves_no_folder() {
     let (folder, run) = folders();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let listen = format!("tcp/{}", taken.local_addr().unwrap());
-    let output = self::run(
-        folder.path(),
-        &["learner", "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", &listen],
-    );
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    for command in ["learner", "train"] {
+        let args = [command, "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", &listen];
+        assert_refused(&self::run(folder.path(), &args), 1, &[&listen, "choose another port"]);
+    }
     assert!(!run.exists());
     let output = self::run(folder.path(), &["train", "--preset", "smoke", "--listen", &listen]);
     assert!(!output.status.success());
@@ -174,7 +171,7 @@ fn flags_of_other_programs_get_a_hint() {
     for (given, ours) in
         [("--num-envs=8", "--envs N"), ("--total-timesteps", "--steps N"), ("--lr", "ppo.learning_rate")]
     {
-        assert_refused(&self::run(folder.path(), &["train", given]), 2, &["hint:", ours]);
+        assert_usage(folder.path(), &["train", given], &["hint:", ours]);
     }
     let task = self::run(folder.path(), &["train", "--task", "Humanoid-v5"]);
     assert_refused(&task, 2, &["--task Humanoid-v5", "`humanoid-v5`", "`gymnasium/Humanoid-v5`"]);

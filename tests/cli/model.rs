@@ -72,8 +72,7 @@ fn a_robot_that_starts_unhealthy_is_refused_with_a_suitable_range() {
     let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_range=[0.63, 1.26]"];
     assert_refused(&train(folder.path(), &run, "hopper.xml", &[]), 2, &parts);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "hopper.xml"]), 2, &parts);
-    let args = ["eval", "--agent", "random", "--set", "ppo.gamma=0.9"];
-    assert_refused(&self::run(folder.path(), &args), 2, &["ppo.gamma", "[env]"]);
+    assert_usage(folder.path(), &["eval", "--agent", "random", "--set", "ppo.gamma=0.9"], &["ppo.gamma", "[env]"]);
 }
 
 #[test]
@@ -123,8 +122,7 @@ fn a_robot_can_be_played_and_timed_without_a_run() {
 fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
     let (folder, run) = folders();
     write(folder.path(), "hopper.xml", HOPPER);
-    let drafted = self::run(folder.path(), &["robot", "hopper.xml", "--png", "hopper.png"]);
-    assert!(drafted.status.success(), "{}", stderr(&drafted));
+    let drafted = done(folder.path(), &["robot", "hopper.xml", "--png", "hopper.png"]);
     let report = stdout(&drafted);
     for part in
         ["# robot", "1 hinges", "level plane", "hip", "model = \"hopper.xml\"", "base = \"trunk\"", "effort_nm = 20.0"]
@@ -140,19 +138,16 @@ fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
     assert!(fs::read_to_string(run.join("model.xml")).unwrap().contains("treadmill_robot_card"));
 
     write(folder.path(), "sliding.xml", &HOPPER.replace("<joint name=\"hip\"", "<joint name=\"hip\" type=\"slide\""));
-    assert_refused(&self::run(folder.path(), &["robot", "sliding.xml"]), 2, &["sliding.xml", "hip", "slide"]);
+    assert_usage(folder.path(), &["robot", "sliding.xml"], &["sliding.xml", "hip", "slide"]);
     write(folder.path(), "wrong.toml", &report.replace("names = \"hip\"", "names = \"knee\""));
-    let args = ["robot", "wrong.toml"];
-    assert_refused(&self::run(folder.path(), &args), 2, &["wrong.toml", "robot card", "knee", "no hinge", "hip"]);
+    assert_usage(folder.path(), &["robot", "wrong.toml"], &["wrong.toml", "robot card", "knee", "no hinge", "hip"]);
     assert_refused(&train(folder.path(), &folder.path().join("x"), "wrong.toml", &HEALTHY), 2, &["wrong.toml", "knee"]);
-    let args = ["robot", "card.toml", "--card", "h1"];
-    assert_refused(&self::run(folder.path(), &args), 2, &["card `h1`", "card of its own"]);
+    assert_usage(folder.path(), &["robot", "card.toml", "--card", "h1"], &["card `h1`", "card of its own"]);
     let args = ["eval", "--agent", "random", "--model", "hopper.xml", "--set", "env.robot=h2"];
     assert_refused(&self::run(folder.path(), &args), 2, &["env.robot", "`h2`", "g1, g1-29, h1, t1"]);
-    let args = ["robot", "hopper.xml", "--card", "h1"];
-    assert_refused(&self::run(folder.path(), &args), 2, &["`base`", "pelvis", "trunk"]);
+    assert_usage(folder.path(), &["robot", "hopper.xml", "--card", "h1"], &["`base`", "pelvis", "trunk"]);
     write(folder.path(), "lost.toml", &report.replace("hopper.xml", "gone.xml"));
-    assert_refused(&self::run(folder.path(), &["robot", "lost.toml"]), 2, &["gone.xml", "cannot be read"]);
+    assert_usage(folder.path(), &["robot", "lost.toml"], &["gone.xml", "cannot be read"]);
     write(
         folder.path(),
         "meshes.xml",
@@ -160,6 +155,6 @@ fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
             .replace("<worldbody>", "<asset><mesh name=\"m\" file=\"m.stl\"/></asset><worldbody>")
             .replace("type=\"capsule\" fromto=\"0 0 0 0 0 -0.6\" size=\"0.05\"", "type=\"mesh\" mesh=\"m\""),
     );
-    assert_refused(&self::run(folder.path(), &["robot", "meshes.xml"]), 2, &["meshes.xml", "m.stl", "cannot be read"]);
-    assert_refused(&self::run(folder.path(), &["robot", "hoper.xml"]), 2, &["hoper.xml"]);
+    assert_usage(folder.path(), &["robot", "meshes.xml"], &["meshes.xml", "m.stl", "cannot be read"]);
+    assert_usage(folder.path(), &["robot", "hoper.xml"], &["hoper.xml"]);
 }

@@ -11,7 +11,7 @@ fn runs_are_compared_by_results_and_configuration() {
     let train = |name: &str, more: &[&str]| {
         let dir = format!("runs/{name}");
         let args = ["train", "--preset", "smoke", "--steps", "1024", "--actors", "1", "--run-dir", &dir];
-        assert!(run(folder.path(), &[&args[..], more].concat()).status.success());
+        done(folder.path(), &[&args[..], more].concat());
     };
     train("plain", &[]);
     train("other", &["--seed", "7", "--set", "ppo.learning_rate=0.001"]);
@@ -56,7 +56,7 @@ fn missing_runs_and_invalid_configurations_are_reported() {
     let (folder, _) = folders();
     assert_refused(&run(folder.path(), &["runs"]), 1, &["`runs`"]);
     fs::create_dir(folder.path().join("runs")).unwrap();
-    assert_refused(&run(folder.path(), &["runs"]), 2, &["no run in `runs`"]);
+    assert_usage(folder.path(), &["runs"], &["no run in `runs`"]);
     fs::create_dir(folder.path().join("runs/bad")).unwrap();
     fs::write(folder.path().join("runs/bad/config.toml"), "[").unwrap();
     assert_refused(&run(folder.path(), &["runs"]), 1, &["runs/bad/config.toml", "not a configuration"]);

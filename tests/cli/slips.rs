@@ -12,7 +12,7 @@ fn misspelled_names_get_the_nearest_one() {
     fs::create_dir(folder.join("runs")).unwrap();
     fs::rename(&run_folder, folder.join("runs/walk-1")).unwrap();
     fs::write(folder.join("robot.xml"), "<mujoco/>").unwrap();
-    let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);
+    let refused = |args: &[&str], parts: &[&str]| assert_usage(folder, args, parts);
     refused(&["eval", "wlak-1"], &["no run at `wlak-1`", "did you mean `walk-1`?", "runs here: runs/walk-1"]);
     refused(&["train", "--resume", "rnus/walk-1"], &["did you mean `runs/walk-1`?"]);
     refused(&["train", "--resume", "runs/walk-1/checkpoints/latest.bundle"], &["did you mean `runs/walk-1`?"]);
@@ -21,7 +21,7 @@ fn misspelled_names_get_the_nearest_one() {
         &["train", "--model", "robt.xml"],
         &["robt.xml` cannot be read: No such file", "did you mean `robot.xml`?"],
     );
-    refused(&["train", "--config", "my.toml"], &["--config", "cannot be read: No such file"]);
+    refused(&["train", "--config", "my.toml"], &["--config", "my.toml", "cannot be read: No such file"]);
     refused(&["train", "--preset", "Walk"], &["unknown preset `Walk`; did you mean `walk`?"]);
     refused(&["train", "--set", "ppo.epochs", "3"], &["hint: write --set ppo.epochs=3"]);
 }
@@ -30,7 +30,7 @@ fn misspelled_names_get_the_nearest_one() {
 fn ignored_and_impossible_flags_are_refused() {
     let (folder, _) = folders();
     let folder = folder.path();
-    let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);
+    let refused = |args: &[&str], parts: &[&str]| assert_usage(folder, args, parts);
     refused(&["train", "--deterministic", "--actors", "4"], &["--deterministic runs one actor", "leave --actors out"]);
     refused(&["certs", "certs", "--host", "bad host!"], &["--host bad host!", "neither a host's name nor an address"]);
     let film = ["eval", "--agent", "random", "--episodes", "1", "--film", "films/walk.gif"];
@@ -56,6 +56,6 @@ fn control_finds_the_only_live_run_and_refuses_to_choose() {
     let _one = start("one");
     assert!(stdout(&run(folder, &["control", "pause"])).starts_with("paused"));
     let _two = start("two");
-    assert_refused(&run(folder, &["control", "resume"]), 2, &["several runs", "runs/one, runs/two"]);
+    assert_usage(folder, &["control", "resume"], &["several runs", "runs/one, runs/two"]);
     assert!(stdout(&run(folder, &["control", "resume", "one"])).starts_with("resumed"));
 }

@@ -6,39 +6,23 @@ use serde_json::Value;
 
 use crate::support::*;
 
-const ROBOT_XML: &str = include_str!("../../actor/humanoid/assets/g1-like-servos.xml");
 const CARD: &str =
     "model = 'robot.xml'\nfeet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
-const PUSHES: [&str; 4] =
-    ["--set", "randomisation.push_mps=[0.1, 0.2]", "--set", "randomisation.push_interval_s=[0.1, 0.2]"];
+const PUSHES: [&str; 2] = ["randomisation.push_mps=[0.1, 0.2]", "randomisation.push_interval_s=[0.1, 0.2]"];
 /// Falls end nothing, so that episodes have complete windows.
 const NEVER_FALLS: [&str; 4] = ["--set", "velocity.fall_height_share=0", "--set", "velocity.fall_tilt_rad=3.2"];
 const FIELDS: [&str; 6] =
     ["velocity_error_mps", "yaw_rate_error_radps", "energy_per_metre_jpm", "foot_slip_mps", "pushes", "windows"];
 
-/// Trains a few steps of the velocity task.
-fn train(folder: &Path, run: &Path) {
-    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
-    fs::write(folder.join("card.toml"), CARD).unwrap();
-    let args = ["train", "--preset", "smoke", "--steps", "512", "--actors", "1", "--model", "card.toml"];
-    let task = ["--set", "env.task=velocity", "--set", "env.control_step_s=0.02", "--set", "env.substeps=5"];
-    let output = run_with(folder, &[&args[..], &task, &PUSHES, &["--run-dir", run.to_str().unwrap()]]);
-    assert!(output.status.success(), "{}", stderr(&output));
-}
-
 fn run_with(folder: &Path, parts: &[&[&str]]) -> std::process::Output {
     run(folder, &parts.concat())
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
 #[test]
 fn a_policy_that_follows_commands_is_measured_by_them() {
     let (folder, run) = folders();
     let folder = folder.path();
-    train(folder, &run);
+    trained_robot(folder, &run, CARD, &PUSHES);
     let path = run.to_str().unwrap();
     let eval = |more: &[&[&str]]| run_with(folder, &[&[&["eval", path, "--episodes", "2"][..]], more].concat());
 
@@ -76,15 +60,13 @@ fn a_policy_that_follows_commands_is_measured_by_them() {
 fn commands_come_from_a_file_and_every_step_is_traced() {
     let (folder, run) = folders();
     let folder = folder.path();
-    train(folder, &run);
+    trained_robot(folder, &run, CARD, &PUSHES);
     let path = run.to_str().unwrap();
     fs::write(folder.join("walk.csv"), "time_s,vx,vy,yaw_rate\n0,0.5,0,0\n0.1,-0.25,0.125,0.5 # turns\n").unwrap();
     let limits = ["--set", "env.max_episode_steps=8", "--film", "a.gif", "--size", "96x64"];
     let args = ["eval", path, "--episodes", "2", "--json", "--trace", "trace.jsonl", "--commands", "walk.csv"];
-    let output = run_with(folder, &[&args, &limits, &NEVER_FALLS]);
-    assert!(output.status.success(), "{}", stderr(&output));
-    let lines = fs::read_to_string(folder.join("trace.jsonl")).unwrap();
-    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    done(folder, &[&args[..], &limits, &NEVER_FALLS].concat());
+    let lines = json_lines(&folder.join("trace.jsonl"));
     assert_eq!(lines.len(), 16);
     for (index, line) in lines.iter().enumerate() {
         let (episode, step) = (index / 8 + 1, index % 8 + 1);

@@ -1,6 +1,6 @@
 //! `treadmill watch` starts the viewer.
 
-use std::{fs, os::unix::fs::PermissionsExt, process::Command};
+use std::{fs, process::Command};
 
 use crate::support::*;
 
@@ -23,14 +23,10 @@ fn watch_passes_all_arguments_to_the_viewer_or_explains_how_to_build_it() {
             .unwrap()
     };
     assert_refused(&watch(), 1, &["`treadmill-watch` is neither", "cargo build --release -p treadmill-watch"]);
-    let install = |folder: &std::path::Path, name: &str| {
-        let program = folder.join("treadmill-watch");
-        fs::write(&program, format!("#!/bin/sh\necho {name} \"$@\"\nexit 7\n")).unwrap();
-        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-    };
-    install(&viewers, "path");
+    let script = |name: &str| format!("#!/bin/sh\necho {name} \"$@\"\nexit 7\n");
+    install(&viewers.join("treadmill-watch"), &script("path"));
     let output = watch();
     assert_eq!((stdout(&output).as_str(), output.status.code()), ("path runs/walk-1 --live --no-follow\n", Some(7)));
-    install(&alone, "beside");
+    install(&alone.join("treadmill-watch"), &script("beside"));
     assert_eq!(stdout(&watch()), "beside runs/walk-1 --live --no-follow\n");
 }

@@ -107,27 +107,15 @@ fn a_python_actor_trains_and_outlives_its_learner() {
     let Some(mut python) = python("gymnasium, google.protobuf, mujoco, numpy, zenoh") else { return };
     let (folder, run) = folders();
     let path = run.to_str().unwrap().to_string();
-    let port = {
-        let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-        free.local_addr().unwrap().port()
-    };
     // The second learner uses the same port, so that the actor finds it.
-    let listen = format!("tcp/127.0.0.1:{port}");
+    let [listen] = free_endpoints("tcp");
     let learner = |more: &[&str]| {
         let mut command = treadmill(folder.path());
         command.args(["learner", "--listen", &listen]).args(more);
         Running::start(command)
     };
-    let first = learner(&[
-        "--preset",
-        "smoke",
-        "--task",
-        "gymnasium/InvertedPendulum-v5",
-        "--run-dir",
-        &path,
-        "--steps",
-        "1000000000",
-    ]);
+    let task = ["--preset", "smoke", "--task", "gymnasium/InvertedPendulum-v5"];
+    let first = learner(&[&task[..], &["--run-dir", &path, "--steps", ENDLESS]].concat());
     endpoint(&run);
     python.args(["-m", "treadmill_actor", "--env", "InvertedPendulum-v5", "--run", "run", "--connect", &listen]);
     python.args(["--envs", "4", "--name", "gym-1", "--seed", "1"]);
@@ -136,12 +124,8 @@ fn a_python_actor_trains_and_outlives_its_learner() {
     // The recording example writes the experience as arrays.
     let recorded = folder.path().join("recorded");
     let mut record = self::python("google.protobuf, numpy, zenoh").expect("a Python, as above");
-    record.arg(python_folder().join("examples/actor/record.py")).arg(&recorded).args([
-        "--connect",
-        &listen,
-        "--count",
-        "2",
-    ]);
+    record.arg(python_folder().join("examples/actor/record.py")).arg(&recorded);
+    record.args(["--connect", &listen, "--count", "2"]);
     let output = record.output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let files: Vec<PathBuf> = std::fs::read_dir(&recorded).unwrap().flatten().map(|entry| entry.path()).collect();

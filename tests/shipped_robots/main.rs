@@ -10,6 +10,7 @@ use std::{
     sync::OnceLock,
 };
 
+use serde_json::Value;
 use support::*;
 
 /// Packages with robots' files, and their versions.
@@ -78,18 +79,10 @@ fn install() -> Option<PathBuf> {
     }
     let python = std::env::var("TREADMILL_PYTHON").unwrap_or_else(|_| "python3".to_string());
     let mut pip = Command::new(python);
-    pip.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-        "--no-deps",
-        "--no-compile",
-        "--upgrade",
-    ]);
-    let done = pip.arg("--target").arg(&folder).args(PACKAGES).status().is_ok_and(|status| status.success());
-    done.then(|| fs::write(&marker, PACKAGES.join(" ")).expect("a marker"))?;
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--upgrade"]);
+    pip.args(["--no-deps", "--no-compile"]);
+    let is_done = pip.arg("--target").arg(&folder).args(PACKAGES).status().is_ok_and(|status| status.success());
+    is_done.then(|| fs::write(&marker, PACKAGES.join(" ")).expect("a marker"))?;
     Some(folder)
 }
 
@@ -100,13 +93,22 @@ fn text(path: &Path) -> &str {
 /// Settings under which every one of these robots counts as upright.
 const UPRIGHT: [&str; 4] = ["--set", "env.healthy_z_range=[0.05, 5.0]", "--set", "env.observation=compact"];
 
+/// Returns what `treadmill robot` reports of a file.
+fn reported(folder: &Path, file: &str, more: &[&str]) -> Value {
+    last_json(&done(folder, &[&["robot", file, "--json"], more].concat()))
+}
+
+/// Returns the result of a random episode of a robot.
+fn played(folder: &Path, model: &str, more: &[&str]) -> Value {
+    let args = ["eval", "--agent", "random", "--episodes", "1", "--model", model, "--json"];
+    last_json(&done(folder, &[&args[..], &UPRIGHT, more].concat()))
+}
+
 #[test]
 fn every_file_is_understood_and_its_drafted_card_too() {
     let (folder, _) = folders();
     for (file, hinges, motors) in robots() {
-        let report = run(folder.path(), &["robot", text(&file), "--json"]);
-        assert!(report.status.success(), "{}: {}", file.display(), stderr(&report));
-        let report = last_json(&report);
+        let report = reported(folder.path(), text(&file), &[]);
         assert_eq!(report["hinges"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
         assert_eq!(report["motors"].as_array().map(Vec::len), Some(motors), "{}", file.display());
 
@@ -117,20 +119,12 @@ fn every_file_is_understood_and_its_drafted_card_too() {
         let card = draft.replace(&format!("model = \"{name}\""), &format!("model = \"{}\"", file.display()));
         let card = card.replace("# effort_nm = 50.0", "effort_nm = 50.0");
         fs::write(folder.path().join("card.toml"), card).expect("a card");
-        let report = run(folder.path(), &["robot", "card.toml", "--json"]);
-        assert!(report.status.success(), "{}: {}", file.display(), stderr(&report));
-        let report = last_json(&report);
+        let report = reported(folder.path(), "card.toml", &[]);
         let of_card = report["hinges"].as_array().expect("hinges");
         assert!(of_card.iter().all(|hinge| hinge["effort_nm"].as_f64() > Some(0.0)), "{}", file.display());
         assert_eq!(report["motors"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
 
-        let played = run(
-            folder.path(),
-            &[&["eval", "--agent", "random", "--episodes", "1", "--model", "card.toml", "--json"][..], &UPRIGHT]
-                .concat(),
-        );
-        assert!(played.status.success(), "{}: {}", file.display(), stderr(&played));
-        assert_eq!(last_json(&played)["faults"], 0, "{}", file.display());
+        assert_eq!(played(folder.path(), "card.toml", &[])["faults"], 0, "{}", file.display());
     }
 }
 
@@ -151,16 +145,12 @@ fn built_in_cards_fit_the_files_of_several_projects() {
         ("t1", "t1/xmls/scene_mjx_feetonly_flat_terrain.xml", 12),
     ] {
         let Some(file) = ends(file) else { continue };
-        let report = run(folder.path(), &["robot", text(file), "--card", card, "--json"]);
-        assert!(report.status.success(), "{card}: {}", stderr(&report));
-        let report = last_json(&report);
+        let report = reported(folder.path(), text(file), &["--card", card]);
         assert_eq!(report["motors"].as_array().map(Vec::len), Some(motors), "{card}, {}", file.display());
         assert_eq!(report["feet"].as_array().map(Vec::len), Some(2), "{card}");
         let robot = format!("env.robot={card}");
-        let args = ["eval", "--agent", "random", "--episodes", "1", "--model", text(file), "--set", &robot, "--json"];
-        let played = run(folder.path(), &[&args[..], &UPRIGHT].concat());
-        assert!(played.status.success(), "{card}: {}", stderr(&played));
-        assert_eq!(last_json(&played)["faults"], 0, "{card}, {}", file.display());
+        let result = played(folder.path(), text(file), &["--set", &robot]);
+        assert_eq!(result["faults"], 0, "{card}, {}", file.display());
     }
 }
 
@@ -177,8 +167,7 @@ fn presets_train_their_robots_from_the_stock_files() {
         let Some((file, ..)) = robots.iter().find(|(path, ..)| path.ends_with(file)) else { continue };
         let (folder, run) = folders();
         let args = ["train", "--preset", preset, "--model", text(file), "--steps", "8192", "--json", "--no-progress"];
-        let trained = support::run(folder.path(), &[&args[..], &["--run-dir", text(&run)]].concat());
-        assert!(trained.status.success(), "{preset}: {}", stderr(&trained));
+        let trained = done(folder.path(), &[&args[..], &["--run-dir", text(&run)]].concat());
         assert!(last_json(&trained)["env_steps"].as_u64() >= Some(8192), "{preset}");
         let exported =
             support::run(folder.path(), &["export", text(&run), "--onnx", "policy.onnx", "--deploy", "deploy.yaml"]);

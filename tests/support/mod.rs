@@ -28,6 +28,7 @@ use treadmill_bus::{
     learner::ControlServer,
     workarounds::threads,
 };
+use treadmill_learner::checkpoint::{TrainingState, load_file};
 use treadmill_proto::{ControlReply, PolicyBundle, Receipt, RunStatus};
 
 /// Longest wait for a condition, which only a broken program reaches.
@@ -61,7 +62,19 @@ pub async fn deliver(bus: &Bus, actor: &str, fragment: Vec<u8>) -> Receipt {
 /// Trains a run of the preset `smoke` for 2048 steps.
 pub fn trained(folder: &Path, run: &Path) {
     let args = ["train", "--preset", "smoke", "--steps", "2048", "--actors", "1", "--run-dir", run.to_str().unwrap()];
-    assert!(self::run(folder, &args).status.success());
+    done(folder, &args);
+}
+
+/// Model of a robot with 29 servos, as G1 has.
+pub const ROBOT_XML: &str = include_str!("../../actor/humanoid/assets/g1-like-servos.xml");
+
+/// Trains a policy of the velocity task for a few steps: of the robot with this card, whose model is `robot.xml`.
+pub fn trained_robot(folder: &Path, run: &Path, card: &str, keys: &[&str]) {
+    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
+    fs::write(folder.join("robot.toml"), card).unwrap();
+    let args = ["train", "--preset", "smoke", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
+    let task = ["env.task=velocity", "env.control_step_s=0.02", "env.substeps=5"];
+    done(folder, &[&args[..], &set(&task), &set(keys), &["--run-dir", run.to_str().unwrap()]].concat());
 }
 
 /// Returns the command `train` or `learner` of a run of the preset `smoke` that trains until it is stopped.
@@ -89,10 +102,22 @@ pub fn run(folder: &Path, args: &[&str]) -> Output {
     treadmill(folder).args(args).output().expect("the binary starts")
 }
 
+/// Returns the flags that set configuration keys, each as `key=value`.
+pub fn set<'a>(pairs: &[&'a str]) -> Vec<&'a str> {
+    pairs.iter().flat_map(|pair| ["--set", pair]).collect()
+}
+
+/// Runs the binary to its end, and asserts that it succeeds.
+#[track_caller]
+pub fn done(folder: &Path, args: &[&str]) -> Output {
+    let output = run(folder, args);
+    assert!(output.status.success(), "{args:?}: {}", stderr(&output));
+    output
+}
+
 /// Runs `treadmill certs`.
 pub fn certs(folder: &Path, args: &[&str]) {
-    let made = run(folder, &[&["certs"], args].concat());
-    assert!(made.status.success(), "{}", stderr(&made));
+    done(folder, &[&["certs"], args].concat());
 }
 
 /// Issues a client's certificate by the authority in `certs` into `out`, valid between these days from now.
@@ -192,6 +217,27 @@ pub fn last_json(output: &Output) -> Value {
     serde_json::from_str(line).unwrap_or_else(|why| panic!("{why} in `{line}`; standard error: {}", stderr(output)))
 }
 
+/// Returns the JSON objects of a file, one per line.
+pub fn json_lines(file: &Path) -> Vec<Value> {
+    fs::read_to_string(file).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Returns the numbers of a JSON list.
+pub fn numbers(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// Writes a program that anyone may run.
+pub fn install(program: &Path, text: &str) {
+    fs::write(program, text).unwrap();
+    fs::set_permissions(program, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// Returns the latest checkpoint of a run.
+pub fn latest(run: &Path) -> TrainingState {
+    load_file(&run.join("checkpoints/latest.bundle")).unwrap()
+}
+
 /// Asserts an exit code and parts of standard error.
 pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     let text = stderr(output);
@@ -202,6 +248,12 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     assert!(!text.contains("panicked"), "{text}");
 }
 
+/// Runs the binary, and asserts that it refuses its arguments with exit code 2 and these parts of standard error.
+#[track_caller]
+pub fn assert_usage(folder: &Path, args: &[&str], parts: &[&str]) {
+    assert_refused(&run(folder, args), 2, parts);
+}
+
 /// Returns the child processes of `parent` whose command line contains `part`.
 pub fn children(parent: u32, part: &str) -> Vec<u32> {
     fs::read_dir("/proc")
@@ -209,21 +261,22 @@ pub fn children(parent: u32, part: &str) -> Vec<u32> {
         .flatten()
         .filter_map(|entry| entry.file_name().to_string_lossy().parse::<u32>().ok())
         .filter(|pid| {
-            let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-            let after_name = stat.rsplit(')').next().unwrap_or_default();
-            let mut fields = after_name.split_whitespace();
-            let state = fields.next();
-            let parent_of_it = fields.next().and_then(|field| field.parse::<u32>().ok());
             let command = fs::read_to_string(format!("/proc/{pid}/cmdline")).unwrap_or_default();
-            state != Some("Z") && parent_of_it == Some(parent) && command.contains(part)
+            stat(*pid).is_some_and(|(is_zombie, of)| !is_zombie && of == parent) && command.contains(part)
         })
         .collect()
 }
 
 /// Returns whether a process exists and is not a zombie.
 pub fn is_running(pid: u32) -> bool {
-    let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-    stat.rsplit(')').next().and_then(|rest| rest.split_whitespace().next()).is_some_and(|state| state != "Z")
+    stat(pid).is_some_and(|(is_zombie, _)| !is_zombie)
+}
+
+/// Returns whether a process is a zombie, and its parent.
+fn stat(pid: u32) -> Option<(bool, u32)> {
+    let text = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    let mut after_name = text.rsplit(')').next()?.split_whitespace();
+    Some((after_name.next()? == "Z", after_name.next()?.parse().ok()?))
 }
 
 /// Returns every logged metric of a run as (tag, step, value).
@@ -273,13 +326,6 @@ pub fn folders() -> (tempfile::TempDir, PathBuf) {
 pub fn page(path: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(path).with_extension("md");
     fs::read_to_string(&file).unwrap_or_else(|why| panic!("{}: {why}", file.display()))
-}
-
-/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
-#[allow(clippy::print_stderr, reason = "reports a skipped test")]
-pub fn skip(why: &str) {
-    assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
-    eprintln!("SKIPPED: {why}");
 }
 
 /// Returns the Python of TREADMILL_PYTHON if it has these modules. Otherwise skips the test.

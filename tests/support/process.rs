@@ -1,4 +1,4 @@
-//! Processes under test, and waiting for conditions. The viewer's tests use this file too.
+//! Processes under test, waiting for conditions, and skipped tests. The viewer's tests use this file too.
 
 use std::{
     io::{BufRead, BufReader},
@@ -96,4 +96,11 @@ pub fn await_that<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
         assert!(Instant::now() < until, "timed out waiting for {what}");
         std::thread::sleep(Duration::from_millis(10));
     }
+}
+
+/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
+#[allow(clippy::print_stderr, reason = "reports a skipped test")]
+pub fn skip(why: &str) {
+    assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
+    eprintln!("SKIPPED: {why}");
 }

@@ -39,7 +39,7 @@ fn policies_are_evaluated_during_training() {
 
     // The best checkpoint holds the policy with the best evaluation.
     let best = returns.iter().map(|(_, value)| *value).fold(f64::MIN, f64::max);
-    let latest = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    let latest = latest(&run);
     assert!(latest.best_is_evaluated);
     assert!((latest.best_return.unwrap() - best).abs() < 1e-9);
     let at = returns.iter().position(|(_, value)| *value == best).unwrap();
@@ -69,8 +69,7 @@ fn a_run_that_goes_back_keeps_its_best_policy() {
     let name = run.to_str().unwrap();
     let args = ["train", "--no-progress", "--preset", "smoke", "--steps", "20480", "--run-dir", name];
     let often = ["--set", "eval.every_steps=1024", "--set", "eval.episodes=1"];
-    let trained = self::run(folder.path(), &[&args[..], &often].concat());
-    assert!(trained.status.success(), "{}", stderr(&trained));
+    done(folder.path(), &[&args[..], &often].concat());
     // A policy better than any that follows.
     let best_file = run.join("checkpoints/best.bundle");
     let mut best = load_file(&best_file).unwrap();
@@ -123,7 +122,7 @@ fn forged_reports_are_ignored() {
     await_steps(&run, 8192);
     training.signal(libc::SIGINT);
     assert!(training.wait().0.success());
-    let latest = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    let latest = latest(&run);
     assert!(!latest.best_is_evaluated && latest.best_return.is_none_or(|best| best < 1e8));
     assert!(metrics(&run).iter().all(|(tag, ..)| !tag.starts_with("eval/")));
 }

@@ -4,60 +4,40 @@ use std::{fs, path::Path};
 
 use crate::support::*;
 use treadmill_humanoid::PHYSICS_VERSION;
-use treadmill_learner::checkpoint::{TrainingState, encoding, load_file};
+use treadmill_learner::checkpoint::{TrainingState, encoding};
 
 /// Transitions of one update.
 const BATCH: u64 = 512;
 /// Four fragments make a batch.
-const SMALL: [&str; 8] = [
-    "train",
-    "--preset",
-    "smoke",
-    "--deterministic",
-    "--set",
-    "rollout.fragment_steps=16",
-    "--set",
-    "learner.checkpoint_every_updates=2",
-];
+const SMALL: [&str; 2] = ["rollout.fragment_steps=16", "learner.checkpoint_every_updates=2"];
 /// Randomisation of the preset sim2sim with more pushes, and the observation of Gymnasium's environment.
-const RANDOMISED: [&str; 18] = [
-    "--set",
+const RANDOMISED: [&str; 9] = [
     "env.observation=gymnasium-v5",
-    "--set",
     "randomisation.mass_scale=[0.85, 1.15]",
-    "--set",
     "randomisation.floor_friction_scale=[0.5, 1.5]",
-    "--set",
     "randomisation.motor_scale=[0.85, 1.15]",
-    "--set",
     "randomisation.damping_scale=[0.6, 1.5]",
-    "--set",
     "randomisation.sensor_noise_position=0.005",
-    "--set",
     "randomisation.action_delay_steps=[0, 1]",
-    "--set",
     "randomisation.push_interval_s=[0.1, 0.3]",
-    "--set",
     "randomisation.push_mps=[0.0, 0.5]",
 ];
 
-fn latest(run: &Path) -> TrainingState {
-    load_file(&run.join("checkpoints/latest.bundle")).unwrap()
+/// Returns the flags of a new deterministic run with these keys.
+fn new_run<'a>(keys: &[&'a str]) -> Vec<&'a str> {
+    [vec!["train", "--preset", "smoke", "--deterministic"], set(&SMALL), set(keys)].concat()
 }
 
-fn begin(folder: &Path, run: &Path, updates: u64, more: &[&str]) -> TrainingState {
+fn begin(folder: &Path, run: &Path, updates: u64, keys: &[&str]) -> TrainingState {
     let steps = (updates * BATCH).to_string();
-    let args = [&SMALL[..], &["--steps", &steps, "--run-dir", run.to_str().unwrap()], more].concat();
-    let output = self::run(folder, &args);
-    assert!(output.status.success(), "{}", stderr(&output));
+    done(folder, &[&new_run(keys)[..], &["--steps", &steps, "--run-dir", run.to_str().unwrap()]].concat());
     latest(run)
 }
 
 fn resume(folder: &Path, run: &Path, updates: u64, more: &[&str]) -> (TrainingState, String) {
     let steps = (updates * BATCH).to_string();
     let args = [&["train", "--resume", run.to_str().unwrap(), "--steps", &steps], more].concat();
-    let output = self::run(folder, &args);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = done(folder, &args);
     (latest(run), stderr(&output))
 }
 
@@ -111,7 +91,7 @@ fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
         let mut command = treadmill(folder.path());
         if updates == 0 {
             // Updates take most of the time, so that most signals arrive during one.
-            command.args(SMALL).args(["--run-dir", name, "--set", "ppo.epochs=10"]);
+            command.args(new_run(&["ppo.epochs=10"])).args(["--run-dir", name]);
         } else {
             command.args(["train", "--resume", name]);
         }
@@ -130,14 +110,14 @@ fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
     assert!(!errors.contains("begins new episodes"), "{errors}");
     assert_eq!(temporary_files(&run), [""; 0], "the kills left files behind");
     let whole = folder.path().join("whole");
-    let wanted = begin(folder.path(), &whole, updates + 2, &["--set", "ppo.epochs=10"]);
+    let wanted = begin(folder.path(), &whole, updates + 2, &["ppo.epochs=10"]);
     assert_same(&found, &wanted);
 }
 
 #[test]
 fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
     let (folder, run) = folders();
-    let wanted = begin(folder.path(), &run, 6, &["--set", "learner.keep_checkpoints=2"]);
+    let wanted = begin(folder.path(), &run, 6, &["learner.keep_checkpoints=2"]);
     let latest = run.join("checkpoints/latest.bundle");
     let valid = fs::read(&latest).unwrap();
     let mut flipped = valid.clone();

@@ -23,8 +23,8 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
     let train = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run_name];
-    assert!(self::run(folder.path(), &train).status.success());
-    assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "4096"]).status.success());
+    done(folder.path(), &train);
+    done(folder.path(), &["train", "--resume", run_name, "--steps", "4096"]);
 
     let points = &read(&python, &run)["points"];
     let mut compared = 0;
@@ -60,24 +60,9 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     let Some(python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
-    let train = [
-        "train",
-        "--preset",
-        "smoke",
-        "--steps",
-        "6144",
-        "--run-dir",
-        run_name,
-        "--set",
-        "ppo.gamma=0.97",
-        "--actors",
-        "1",
-        "--tag",
-        "short",
-        "--description",
-        "what a run logs",
-    ];
-    assert!(self::run(folder.path(), &train).status.success());
+    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
+    let labels = ["--actors", "1", "--tag", "short", "--description", "what a run logs"];
+    done(folder.path(), &[&train[..], &labels].concat());
     let first = read(&python, &run);
 
     assert_configuration(first["points"]["config"][0][1].as_str().unwrap(), &run);
@@ -121,7 +106,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     assert!((session["metrics"]["rollout/distance_best_m"].as_f64().unwrap() - best).abs() < 1e-6);
 
     // A resumed run still has one row, and its text shows each configuration from its first step.
-    assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192"]).status.success());
+    done(folder.path(), &["train", "--resume", run_name, "--steps", "8192"]);
     let second = read(&python, &run);
     assert_eq!(steps(&second["points"]["config"]), [0, 6144]);
     assert!(second["points"]["command"][1][1].as_str().unwrap().contains("--resume"));
@@ -133,7 +118,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     // Several runs of one log directory have a row each.
     let other = folder.path().join("other");
     let train = ["train", "--preset", "smoke", "--steps", "512", "--run-dir", other.to_str().unwrap()];
-    assert!(self::run(folder.path(), &train).status.success());
+    done(folder.path(), &train);
     assert_eq!(sessions(&read(&python, &run)).len(), 2);
 }
 

@@ -3,7 +3,6 @@
 use std::fs;
 
 use crate::support::*;
-use treadmill_learner::checkpoint::load_file;
 
 const SMOKE: [&str; 4] = ["train", "--preset", "smoke", "--json"];
 
@@ -149,7 +148,7 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         small.iter().for_each(|pair| args.extend(["--set", pair]));
         let output = self::run(folder.path(), &args);
         assert!(output.status.success(), "{preset}: {}", stderr(&output));
-        let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+        let state = latest(&run);
         assert_eq!(state.shape.observation, size);
         assert!(state.config_toml.contains(&format!("task = \"{task}\"")));
         assert_eq!(state.counters.updates, 6);
@@ -175,7 +174,7 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         let exported = folder.path().join("policy.safetensors");
         let args =
             ["export", run.to_str().unwrap(), "--checkpoint", "latest", "--safetensors", exported.to_str().unwrap()];
-        assert!(self::run(folder.path(), &args).status.success());
+        done(folder.path(), &args);
         let again = self::run(folder.path(), &["eval", exported.to_str().unwrap(), "--episodes", "1", "--json"]);
         assert_eq!(last_json(&again), played, "{}", stderr(&again));
     }
@@ -187,12 +186,10 @@ fn training_with_mirror_images_continues_after_a_resume() {
     let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored", "--actors", "1"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let args = ["train", "--resume", run.to_str().unwrap(), "--steps", "12288", "--json"];
-    let resumed = self::run(folder.path(), &args);
-    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    let resumed = done(folder.path(), &args);
     assert_eq!(last_json(&resumed)["updates"], 24);
     // One gradient step per minibatch, and mirror images double the number of minibatches.
-    let steps =
-        |run: &std::path::Path| load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.gradient_steps;
+    let steps = |run: &std::path::Path| latest(run).counters.gradient_steps;
     let (plain_folder, plain) = folders();
     assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288", "--actors", "1"]).status.success());
     assert_eq!(steps(&run), 2 * steps(&plain));
@@ -205,7 +202,7 @@ fn the_same_seed_gives_the_same_weights_bit_for_bit() {
         let args = [&["--deterministic", "--seed", seed, "--steps", "2048"], more].concat();
         let output = smoke(folder.path(), &run, &args);
         assert!(output.status.success(), "{}", stderr(&output));
-        load_file(&run.join("checkpoints/latest.bundle")).unwrap().ppo.parameters().to_vec()
+        latest(&run).ppo.parameters().to_vec()
     };
     let first = weights("7", &[]);
     assert_eq!(first, weights("7", &[]));
@@ -230,7 +227,7 @@ fn the_first_ctrl_c_saves_and_prints_the_resume_command() {
     assert!(status.success(), "{status}");
     assert!(resume.contains(&format!("treadmill train --resume {}", run.display())));
     await_that("the end of the actors", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
-    let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.env_steps;
+    let saved = latest(&run).counters.env_steps;
     assert_eq!(last_value(&run, "time/total_timesteps"), Some(saved as f64));
     let steps = (saved + 512).to_string();
     let output = self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--steps", &steps, "--json"]);
@@ -291,18 +288,13 @@ fn fragments_that_are_too_large_to_send_are_refused_before_anything_is_written()
 }
 
 #[test]
-fn a_run_folder_is_not_overwritten() {
-    let (folder, run) = folders();
-    assert!(smoke(folder.path(), &run, &["--steps", "512"]).status.success());
-    assert_refused(&smoke(folder.path(), &run, &[]), 2, &["already holds a run", "--resume"]);
-}
-
-#[test]
-fn runs_get_the_first_free_name() {
+fn runs_get_the_first_free_name_and_are_not_overwritten() {
     let (folder, _) = folders();
     for name in ["smoke-1", "smoke-2"] {
         let output = self::run(folder.path(), &["train", "--preset", "smoke", "--steps", "512", "--json"]);
         assert_eq!(last_json(&output)["run"], name);
         assert!(folder.path().join("runs").join(name).join("metrics.jsonl").is_file());
     }
+    let again = smoke(folder.path(), &folder.path().join("runs/smoke-1"), &[]);
+    assert_refused(&again, 2, &["already holds a run", "--resume"]);
 }

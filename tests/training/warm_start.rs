@@ -18,10 +18,6 @@ fn first_state(folder: &Path, name: &str, args: &[&str]) -> (TrainingState, Vec<
     (state, lines)
 }
 
-fn latest(run: &Path) -> TrainingState {
-    load_file(&run.join("checkpoints/latest.bundle")).unwrap()
-}
-
 #[test]
 fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let (folder, run_folder) = folders();
@@ -43,8 +39,7 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     }
 
     // A file of `export` has no statistics of returns.
-    let exported = run(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
-    assert!(exported.status.success(), "{}", stderr(&exported));
+    done(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
     let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
     let (ours, _) = first_state(folder, "exported", &from);
     let ours = ours.ppo.trained_policy();
@@ -77,8 +72,7 @@ fn a_fork_goes_on_in_a_folder_of_its_own_with_other_keys() {
 
     let args = ["train", "--fork", "run", "--run-dir", "on", "--no-progress", "--steps"];
     let further = (steps + 1024).to_string();
-    let trained = run(folder, &[&args[..], &[&further]].concat());
-    assert!(trained.status.success(), "{}", stderr(&trained));
+    let trained = done(folder, &[&args[..], &[&further]].concat());
     assert!(stdout(&trained).contains("branching off at"), "{}", stdout(&trained));
     let ours = latest(&folder.join("on"));
     assert!(ours.counters.env_steps >= steps + 1024 && ours.counters.updates > updates);
@@ -105,8 +99,7 @@ fn a_service_begins_from_a_policy_once_and_then_goes_on() {
         ["--preset", "smoke", "--resume-or-start", "--init-from", "run", "--checkpoint", "best", "--tag", "a"];
     let train = |steps: &str| {
         let args = ["train", "--run-dir", "service", "--no-progress", "--steps", steps];
-        let output = run(folder, &[&args[..], &service].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
+        done(folder, &[&args[..], &service].concat());
         latest(&folder.join("service")).counters
     };
     let (first, second) = (train("1024"), train("3072"));
@@ -122,8 +115,7 @@ fn tags_and_description_are_shown_and_may_change() {
     let (folder, run_folder) = folders();
     let folder = folder.path();
     let args = ["train", "--preset", "smoke", "--steps", "512", "--run-dir", "run", "--no-progress", "--tag", "slow"];
-    let trained = run(folder, &[&args[..], &["--tag", "v2", "--description", "fewer \"steps\""]].concat());
-    assert!(trained.status.success(), "{}", stderr(&trained));
+    done(folder, &[&args[..], &["--tag", "v2", "--description", "fewer \"steps\""]].concat());
     let listed = stdout(&run(folder, &["runs", "run"]));
     assert!(listed.lines().any(|line| line == "    [slow] [v2] fewer \"steps\""), "{listed}");
     let record = last_json(&run(folder, &["runs", "run", "--json"]));

@@ -1,15 +1,15 @@
-//! Treadmill's viewer: the humanoid in [Rerun](https://rerun.io), in a browser, in Rerun's own window or as a file.
+//! Treadmill's viewer: the humanoid in [Rerun](https://rerun.io), in a browser or as a file.
 //!
 //! `treadmill watch` starts this program. It is separate so that building the trainer does not build Rerun.
 //!
 //! # Layout, in the order of the data
 //! - [`player`]: poses of a saved policy, from episodes played here.
-//! - [`steering`]: commands from keyboard and gamepad.
+//! - [`steering`]: commands from the keyboard.
 //! - [`live`]: poses of a training actor, from the bus.
 //! - [`scene_recorder`]: logs a pose to Rerun: body, floor, trail, contacts, curves.
 //! - [`shapes`]: logs the model's shapes.
 //! - [`layout`]: views and camera.
-//! - [`viewer_output`]: browser, window or file.
+//! - [`viewer_output`]: browser or file.
 
 mod layout;
 mod live;

@@ -57,7 +57,7 @@ impl Player {
         self.environment.task().command().is_some()
     }
 
-    /// Plays in real time under the commands of keyboard and gamepad, until the key that ends or `show` returns false. A new
+    /// Plays in real time under the commands of the keyboard, until the key that ends or `show` returns false. A new
     /// episode begins where one ends.
     pub fn steer(
         &mut self,

@@ -1,4 +1,4 @@
-//! Output of the viewer: a page for a browser, Rerun's own window, or a file.
+//! Output of the viewer: a page for a browser, or a file.
 
 use std::{
     net::{IpAddr, SocketAddr, TcpListener},
@@ -6,9 +6,7 @@ use std::{
 };
 
 use anyhow::Context;
-use rerun::{
-    MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
-};
+use rerun::{MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, web_viewer::WebViewerConfig};
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say, signals},
     shared::viewer_args::ViewerOutputArgs,
@@ -21,13 +19,8 @@ const APPLICATION: &str = "treadmill";
 /// Recording and its destination.
 pub struct ViewerOutput {
     recording: RecordingStream,
-    destination: Destination,
-}
-
-enum Destination {
-    File(PathBuf),
-    Window,
-    Page,
+    /// File that the recording is written to, if it is not served.
+    file: Option<PathBuf>,
 }
 
 impl ViewerOutput {
@@ -37,21 +30,7 @@ impl ViewerOutput {
         if let Some(file) = &args.rrd {
             let recording =
                 builder.save(file).with_context(|| format!("--rrd {}: the file cannot be written", file.display()))?;
-            return Ok(ViewerOutput { recording, destination: Destination::File(file.clone()) });
-        }
-        if args.native {
-            check_display()?;
-            let options = SpawnOptions {
-                wait_for_bind: true,
-                // By default the window accepts data from any host.
-                extra_args: vec!["--bind".to_string(), "127.0.0.1".to_string()],
-                ..SpawnOptions::default()
-            };
-            let recording = builder.spawn_opts(&options).with_context(|| {
-                let version = rerun::build_info().version;
-                format!("--native needs Rerun's viewer {version}: `pip install rerun-sdk=={version}`")
-            })?;
-            return Ok(ViewerOutput { recording, destination: Destination::Window });
+            return Ok(ViewerOutput { recording, file: Some(file.clone()) });
         }
         Self::serve(args, builder, is_insecure)
     }
@@ -87,7 +66,7 @@ impl ViewerOutput {
         };
         page.host_web_viewer().context("the page cannot be served")?.detach();
         say(&format!("watch at http://{host}:{web_port}/?url=rerun%2Bhttp%3A%2F%2F{host}%3A{data_port}%2Fproxy"));
-        Ok(ViewerOutput { recording, destination: Destination::Page })
+        Ok(ViewerOutput { recording, file: None })
     }
 
     /// Returns the stream to log to.
@@ -98,27 +77,23 @@ impl ViewerOutput {
     /// Waits until everything is written. Serves a page until Ctrl-C.
     pub fn finish(self, shutdown: &Shutdown) -> anyhow::Result<()> {
         self.recording.flush_blocking().context("the recording could not be written completely")?;
-        match &self.destination {
-            Destination::File(file) => {
-                // Closing the file writes its end.
-                self.recording.disconnect();
-                let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
-                say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
-            }
-            Destination::Window => {}
-            Destination::Page if shutdown.asked() => {}
-            Destination::Page => {
-                say("all is shown; press Ctrl-C to end");
-                let runtime =
-                    tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
-                runtime.block_on(async {
-                    signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
-                    shutdown.wait().await;
-                    anyhow::Ok(())
-                })?;
-            }
+        if let Some(file) = &self.file {
+            // Closing the file writes its end.
+            self.recording.disconnect();
+            let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
+            say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
+            return Ok(());
         }
-        Ok(())
+        if shutdown.asked() {
+            return Ok(());
+        }
+        say("all is shown; press Ctrl-C to end");
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
+        runtime.block_on(async {
+            signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
+            shutdown.wait().await;
+            anyhow::Ok(())
+        })
     }
 }
 
@@ -129,13 +104,4 @@ fn free_port(bind: IpAddr, port: u16, flag: &str) -> anyhow::Result<u16> {
             Usage(format!("{flag} {port}: cannot listen on {bind}:{port}: {why}; choose another port, or 0"))
         })?;
     Ok(bound.port())
-}
-
-fn check_display() -> Result<(), Usage> {
-    if ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty())) {
-        return Ok(());
-    }
-    let why = "--native: no display (neither DISPLAY nor WAYLAND_DISPLAY is set); omit it and open the page in a browser, \
-               from another machine through ssh (see docs/guide/watch.md), or write a file with --rrd";
-    Err(Usage(why.to_string()))
 }

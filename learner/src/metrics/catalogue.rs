@@ -100,7 +100,7 @@ pub const METRICS: &[MetricRow] = metrics! {
     IMPORTANT "rollout/used_share", "share", "1" => Sometimes(|r| r.efficiency.used_share);
 
     /// Environment steps learnt from per second, in the last 20 updates.
-    IMPORTANT "time/fps", "steps/s", "23000" => Always(|r| r.throughput.env_steps_per_s);
+    IMPORTANT "time/fps", "steps/s", "23000" => Always(|r| r.efficiency.env_steps_per_s);
     /// Updates, undone ones included.
     "time/iterations", "count", "" => Always(|r| r.state.counters.updates as f64);
     /// Time that the learner ran.
@@ -211,7 +211,7 @@ pub const METRICS: &[MetricRow] = metrics! {
     "actors/memory_max_mb", "MB", "39" => Always(|r| r.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0) as f64 / 1e6);
     /// Time in which the learner waited for rollouts, in the last 20 updates: the demand for more actors. Never
     /// near 0 in mode `sync`.
-    "learner/wait_share", "share", "0.69" => Always(|r| r.throughput.wait_share);
+    "learner/wait_share", "share", "0.69" => Always(|r| r.efficiency.wait_share);
     /// Resident memory of the learner.
     "learner/memory_mb", "MB", "63" => Always(|_| machine::resident_bytes() as f64 / 1e6);
 

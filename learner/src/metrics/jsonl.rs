@@ -1,10 +1,11 @@
 //! `metrics.jsonl`: one line per scalar, with the same JSON object as on the bus.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 use treadmill_proto::json::Metric;
+use treadmill_runtime::atomic_file;
 
 use super::append_whole;
 
@@ -39,21 +40,21 @@ impl JsonLines {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             Err(error) => return Err(error),
         };
-        // In the same folder, because a rename is atomic only within a file system.
-        let mut temporary = path.as_os_str().to_owned();
-        temporary.push(".tmp");
-        let temporary = Path::new(&temporary);
-        let replaced = copy_through(file, temporary, step).and_then(|()| fs::rename(temporary, path));
-        if replaced.is_err() {
-            // The file may not exist; the first error is returned.
-            let _ = fs::remove_file(temporary);
-        }
-        replaced
+        let mut kept = Vec::new();
+        // Copies the lines' bytes: encoding a number again may change its last digit.
+        for_each_metric(file, |metric, line| {
+            if metric.step <= step {
+                kept.extend_from_slice(line);
+                kept.push(b'\n');
+            }
+            Ok(())
+        })?;
+        atomic_file::write(path, &kept)
     }
 }
 
 /// Calls `each` with every metric of a file and its line, in order; skips lines that are not metrics.
-pub(super) fn for_each_metric(file: File, mut each: impl FnMut(Metric, &[u8]) -> io::Result<()>) -> io::Result<()> {
+pub fn for_each_metric(file: File, mut each: impl FnMut(Metric, &[u8]) -> io::Result<()>) -> io::Result<()> {
     let mut reader = BufReader::new(file);
     let mut line = Vec::new();
     while reader.read_until(b'\n', &mut line)? > 0 {
@@ -63,17 +64,4 @@ pub(super) fn for_each_metric(file: File, mut each: impl FnMut(Metric, &[u8]) ->
         line.clear();
     }
     Ok(())
-}
-
-fn copy_through(file: File, to: &Path, step: u64) -> io::Result<()> {
-    let mut kept = BufWriter::new(File::create(to)?);
-    // Copies the lines' bytes: encoding a number again may change its last digit.
-    for_each_metric(file, |metric, line| {
-        if metric.step > step {
-            return Ok(());
-        }
-        kept.write_all(line)?;
-        kept.write_all(b"\n")
-    })?;
-    kept.into_inner()?.sync_all()
 }

@@ -26,38 +26,25 @@ fn lines_are_appended_without_non_finite_values() {
 }
 
 #[test]
-fn a_resume_removes_later_lines_and_a_truncated_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("metrics.jsonl");
+fn a_resume_removes_later_lines_and_those_that_are_not_metrics() {
     let kept = line(10, "0.1") + &line(20, "0.30000000000000004");
-    fs::write(&path, kept.clone() + &line(21, "3.0") + r#"{"run":"r","tag":"roll"#).unwrap();
-    JsonLines::truncate_after(&path, 20).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), kept);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was left");
-
-    JsonLines::append(&path).unwrap().write(&[metric(30, 4.0)]).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), kept + &line(30, "4.0"));
-}
-
-#[test]
-fn a_complete_last_line_without_a_newline_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("metrics.jsonl");
-    fs::write(&path, line(10, "1.0").trim_end()).unwrap();
-    JsonLines::truncate_after(&path, 10).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), line(10, "1.0"));
-}
-
-#[test]
-fn bytes_that_are_not_text_do_not_stop_a_resume() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("metrics.jsonl");
-    let mut bytes = vec![0xff, 0x00, b'\n', b'\n'];
-    bytes.extend_from_slice(line(5, "1.0").as_bytes());
-    bytes.extend_from_slice(&[0; 100]);
-    fs::write(&path, bytes).unwrap();
-    JsonLines::truncate_after(&path, 10).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), line(5, "1.0"));
+    let torn = r#"{"run":"r","tag":"roll"#;
+    let not_text = [b"\xff\0\n\n", line(5, "1.0").as_bytes(), &[0; 100]].concat();
+    for (before, after) in [
+        ((kept.clone() + &line(21, "3.0") + torn).into_bytes(), kept),
+        // A complete last line without a newline stays.
+        (line(10, "1.0").trim_end().as_bytes().to_vec(), line(10, "1.0")),
+        (not_text, line(5, "1.0")),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        fs::write(&path, before).unwrap();
+        JsonLines::truncate_after(&path, 20).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), after);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was left");
+        JsonLines::append(&path).unwrap().write(&[metric(30, 4.0)]).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), after + &line(30, "4.0"));
+    }
 }
 
 #[test]

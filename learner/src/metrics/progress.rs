@@ -3,7 +3,6 @@
 //! On a terminal: a progress bar, and above it tables of the most important metrics. Elsewhere, such as in a log file: short
 //! lines without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
-use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -26,15 +25,6 @@ const SPARKLINE_WIDTH: usize = 16;
 const FIRST_WAIT_MIN: Duration = Duration::from_secs(2);
 /// Shortest wait that is reported afterwards.
 const WAIT_MIN: Duration = Duration::from_secs(30);
-
-/// Window of the speed: long enough for several updates, short enough to follow actors that join and leave.
-const SPEED_WINDOW: Duration = Duration::from_secs(60);
-
-/// Interval between two samples.
-const SPEED_EVERY: Duration = Duration::from_secs(2);
-
-/// Most samples: those in the window, the one at its edge, and the newest.
-const SPEED_SAMPLES_MAX: usize = 32;
 
 /// Bar on a terminal, without colours.
 const BAR: &str = "{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
@@ -60,7 +50,7 @@ pub struct Console {
     bar: Option<ProgressBar>,
     options: ConsoleOptions,
     started: Instant,
-    speed: SpeedMeter,
+    start_steps: u64,
     total_steps: u64,
     env_steps: u64,
     /// Time of the next line or table.
@@ -100,7 +90,7 @@ impl Console {
             bar: None,
             options,
             started: Instant::now(),
-            speed: SpeedMeter::new(start_steps),
+            start_steps,
             total_steps,
             env_steps: start_steps,
             due: Duration::ZERO,
@@ -119,8 +109,8 @@ impl Console {
     fn progress_at(&mut self, env_steps: u64, scalars: &Scalars, history: &History, elapsed: Duration) {
         self.waited = Duration::ZERO;
         self.env_steps = env_steps;
-        self.speed.observe(elapsed, env_steps);
-        let speed = speed_and_remaining(self.speed.steps_per_s(), self.total_steps.saturating_sub(env_steps));
+        let steps_per_s = value_of(scalars, "time/fps").unwrap_or(0.0);
+        let speed = speed_and_remaining(steps_per_s, self.total_steps.saturating_sub(env_steps));
         if let Some(bar) = &self.bar {
             bar.set_position(env_steps);
             bar.set_message(speed);
@@ -149,7 +139,7 @@ impl Console {
 
     /// Reports a long wait for experience, then again each time it has doubled. `actors` are alive.
     pub fn show_wait(&mut self, waited: Duration, actors: usize) {
-        let threshold = if actors > 0 && self.speed.has_started() { WAIT_MIN } else { FIRST_WAIT_MIN };
+        let threshold = if actors > 0 && self.env_steps > self.start_steps { WAIT_MIN } else { FIRST_WAIT_MIN };
         if waited < threshold.max(self.waited * 2) || !self.options.show_progress {
             return;
         }
@@ -189,7 +179,7 @@ impl Console {
         }
         if self.options.show_progress {
             let elapsed = self.started.elapsed();
-            let steps = self.env_steps.saturating_sub(self.speed.start_steps);
+            let steps = self.env_steps.saturating_sub(self.start_steps);
             let speed = steps as f64 / elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
             let [now, total, speed] = [self.env_steps, self.total_steps, speed as u64].map(thousands);
             self.write(&format!("steps {now} of {total}, {} at {speed} steps/s\n", clock(elapsed.as_secs())));
@@ -223,10 +213,14 @@ fn set_template(bar: &ProgressBar, template: &str) {
     }
 }
 
+fn value_of(scalars: &Scalars, tag: &str) -> Option<f64> {
+    scalars.iter().find(|(name, _)| name == tag).map(|(_, value)| *value)
+}
+
 /// Returns `155,648 of 8,000,000 steps (1.9 %), 7,412 steps/s, 17m 38s left; return 412, length 85, …`.
 fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars) -> String {
     let percent = env_steps as f64 / total_steps.max(1) as f64 * 100.0;
-    let known = |tag: &str| scalars.iter().find(|(name, _)| name == tag).map(|(_, value)| *value);
+    let known = |tag| value_of(scalars, tag);
     let parts = [
         known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
@@ -268,55 +262,13 @@ fn rounded(value: f64, decimals: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_string() } else { text }
 }
 
-/// Measures steps per second over [`SPEED_WINDOW`]. The caller passes the time.
-#[derive(Debug)]
-struct SpeedMeter {
-    start_steps: u64,
-    samples: VecDeque<(Duration, u64)>,
-}
-
-impl SpeedMeter {
-    fn new(start_steps: u64) -> Self {
-        Self { start_steps, samples: VecDeque::from([(Duration::ZERO, start_steps)]) }
-    }
-
-    fn observe(&mut self, elapsed: Duration, env_steps: u64) {
-        // Replaces the newest sample until it is SPEED_EVERY after the one before it.
-        if let [.., before, newest] = self.samples.make_contiguous()
-            && newest.0.saturating_sub(before.0) < SPEED_EVERY
-        {
-            *newest = (elapsed, env_steps);
-        } else {
-            self.samples.push_back((elapsed, env_steps));
-        }
-        // Keeps one sample at the window's edge or before it, so that rare updates also have a speed.
-        let outside = |sample: &(Duration, u64)| elapsed.saturating_sub(sample.0) >= SPEED_WINDOW;
-        while self.samples.len() > SPEED_SAMPLES_MAX || (self.samples.len() > 2 && outside(&self.samples[1])) {
-            self.samples.pop_front();
-        }
-    }
-
-    fn has_started(&self) -> bool {
-        self.samples.len() > 1
-    }
-
-    /// Returns the speed, or `None` without two samples at different times.
-    fn steps_per_s(&self) -> Option<f64> {
-        let (first, last) = (self.samples.front()?, self.samples.back()?);
-        let seconds = last.0.saturating_sub(first.0).as_secs_f64();
-        (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
-    }
-}
-
 /// Returns text such as `3,412 steps/s, 4m 05s left`.
-fn speed_and_remaining(steps_per_s: Option<f64>, steps_left: u64) -> String {
-    match steps_per_s {
-        Some(speed) if speed > 0.0 => {
-            let left = clock((steps_left as f64 / speed).ceil() as u64);
-            format!("{} steps/s, {left} left", thousands(speed.round() as u64))
-        }
-        _ => "0 steps/s".to_string(),
+fn speed_and_remaining(steps_per_s: f64, steps_left: u64) -> String {
+    if steps_per_s <= 0.0 {
+        return "0 steps/s".to_string();
     }
+    let left = clock((steps_left as f64 / steps_per_s).ceil() as u64);
+    format!("{} steps/s, {left} left", thousands(steps_per_s.round() as u64))
 }
 
 /// Returns text such as `5s`, `4m 05s`, `3h 04m` or `2d 03h`.

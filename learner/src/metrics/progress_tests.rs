@@ -39,6 +39,7 @@ fn a_log_file_gets_a_short_line_after_the_first_update_and_every_ten_seconds() {
     let captured = Captured::default();
     let mut console = console(&captured, 10_000, 1_000, options(true, false));
     let scalars = [
+        ("time/fps", 100.0),
         ("rollout/ep_rew_mean", 412.3),
         ("rollout/ep_len_mean", 85.2),
         ("rollout/distance_mean_m", -0.04),
@@ -60,7 +61,7 @@ fn a_log_file_gets_a_short_line_after_the_first_update_and_every_ten_seconds() {
 fn a_line_of_large_numbers_has_at_most_160_characters() {
     let tags = ["rollout/ep_rew_mean", "rollout/ep_len_mean", "rollout/distance_mean_m", "rollout/used_share"];
     let scalars = tags.map(|tag| (tag.to_string(), -123_456.7));
-    let speed = speed_and_remaining(Some(1_234_567.0), 1 << 40);
+    let speed = speed_and_remaining(1_234_567.0, 1 << 40);
     let line = line(123_456_789_012, 999_999_999_999, &speed, &scalars);
     assert!(line.chars().count() <= 160, "{line}");
 }
@@ -142,34 +143,8 @@ fn a_closed_pipe_is_ignored() {
 }
 
 #[test]
-fn the_speed_is_that_of_its_window() {
-    let mut speed = SpeedMeter::new(0);
-    assert_eq!(speed.steps_per_s(), None);
-    let mut steps = 0;
-    for tenth in 1..=6_000u64 {
-        // Ten times as fast after five minutes.
-        steps += if tenth <= 3_000 { 10 } else { 100 };
-        speed.observe(Duration::from_millis(100 * tenth), steps);
-        assert!(speed.samples.len() <= SPEED_SAMPLES_MAX);
-    }
-    assert_eq!(speed.steps_per_s(), Some(1_000.0));
-}
-
-#[test]
-fn rare_updates_still_have_a_speed() {
-    let mut speed = SpeedMeter::new(100);
-    speed.observe(seconds(200), 300);
-    speed.observe(seconds(400), 700);
-    assert_eq!(speed.steps_per_s(), Some(2.0));
-    // A clock that stops and decreasing steps are harmless.
-    speed.observe(seconds(400), 0);
-    assert_eq!(speed.steps_per_s(), Some(0.0));
-}
-
-#[test]
 fn durations_are_formatted_with_two_units() {
     assert_eq!([5, 245, 11_040, 183_600].map(clock), ["5s", "4m 05s", "3h 04m", "2d 03h"]);
-    assert_eq!(speed_and_remaining(None, 5), "0 steps/s");
-    assert_eq!(speed_and_remaining(Some(0.0), 5), "0 steps/s");
-    assert_eq!(speed_and_remaining(Some(f64::MIN_POSITIVE), u64::MAX).split(", ").count(), 2);
+    assert_eq!(speed_and_remaining(0.0, 5), "0 steps/s");
+    assert_eq!(speed_and_remaining(f64::MIN_POSITIVE, u64::MAX).split(", ").count(), 2);
 }

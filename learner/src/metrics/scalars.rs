@@ -2,7 +2,7 @@
 
 use std::{
     collections::{BTreeSet, HashMap},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
@@ -56,56 +56,6 @@ impl PolicyLag {
     }
 }
 
-/// Measures the throughput over the last updates.
-#[derive(Debug)]
-pub struct ThroughputMeter {
-    marks: std::collections::VecDeque<Mark>,
-    waited: Duration,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Mark {
-    at: Instant,
-    env_steps: u64,
-    waited: Duration,
-}
-
-/// Throughput of the last updates.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Throughput {
-    /// Environment steps per second.
-    pub env_steps_per_s: f64,
-    /// Share of the time in which the learner waited for rollouts.
-    pub wait_share: f64,
-}
-
-impl ThroughputMeter {
-    /// Number of updates in the measurement.
-    const UPDATES: usize = 20;
-
-    /// Starts to measure.
-    pub fn new(env_steps: u64) -> Self {
-        let mark = Mark { at: Instant::now(), env_steps, waited: Duration::ZERO };
-        Self { marks: [mark].into(), waited: Duration::ZERO }
-    }
-
-    /// Records the steps so far and the wait for the last ones. Returns the throughput since the oldest record.
-    pub fn mark(&mut self, env_steps: u64, waited: Duration) -> Throughput {
-        let at = Instant::now();
-        self.waited += waited;
-        self.marks.push_back(Mark { at, env_steps, waited: self.waited });
-        if self.marks.len() > Self::UPDATES {
-            self.marks.pop_front();
-        }
-        let oldest = self.marks.front().copied().expect("a mark was just added");
-        let passed_s = at.duration_since(oldest.at).as_secs_f64().max(1e-9);
-        Throughput {
-            env_steps_per_s: (env_steps - oldest.env_steps) as f64 / passed_s,
-            wait_share: ((self.waited - oldest.waited).as_secs_f64() / passed_s).min(1.0),
-        }
-    }
-}
-
 /// Sources of the scalars of one update.
 pub struct UpdateRecord<'a> {
     /// State after the update.
@@ -126,9 +76,7 @@ pub struct UpdateRecord<'a> {
     pub evaluation: Option<(&'a EvaluationReport, u64)>,
     /// History of the run, including this update.
     pub history: &'a History,
-    /// Throughput of the last updates.
-    pub throughput: Throughput,
-    /// Efficiency of the fleet over the last updates.
+    /// Speed and efficiency over the last updates.
     pub efficiency: Efficiency,
     /// Actors that are alive.
     pub alive: &'a BTreeSet<String>,

@@ -93,7 +93,8 @@ mod tests {
     fn each_alarm_says_what_to_do_and_ends() {
         let (mut alarms, mut rejections, now) = (Alarms::default(), Rejections::default(), Instant::now());
         assert!(alarms.texts(&rejections, now).is_empty());
-        let (wasteful, mut config) = (Efficiency { used_share: Some(0.64), idle_share: None }, Config::default());
+        let (wasteful, mut config) =
+            (Efficiency { used_share: Some(0.64), ..Efficiency::default() }, Config::default());
         config.rollout.fragment_steps = 128;
         alarms.record_efficiency(wasteful, 12, 0, &config);
         alarms.record_undone("the loss is not finite", now);
@@ -106,7 +107,7 @@ mod tests {
             "{}",
             texts[2]
         );
-        alarms.record_efficiency(Efficiency { used_share: Some(0.97), idle_share: None }, 12, 0, &config);
+        alarms.record_efficiency(Efficiency { used_share: Some(0.97), ..Efficiency::default() }, 12, 0, &config);
         assert!(alarms.texts(&rejections, now + LASTS).is_empty());
         (config.rollout.fragment_steps, config.learner.mode) = (0, LearnerMode::Async);
         for (late, undone, wanted) in [(12, 8, "learner.max_policy_lag"), (0, 8, "why updates were undone")] {

@@ -23,7 +23,7 @@ use crate::{
     intake::{CollectedBatch, FleetEffort},
     metrics::{
         Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, RewardTerms, histograms,
-        scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
+        scalars::{PhaseDurations, PolicyLag, UpdateRecord},
     },
     waiting::Retry,
 };
@@ -51,9 +51,8 @@ pub(super) struct Reporting {
     config_file: PathBuf,
     action_names: Vec<String>,
     reward_terms: RewardTerms,
-    throughput: ThroughputMeter,
     efficiency_meter: EfficiencyMeter,
-    /// Efficiency of the fleet over the last updates.
+    /// Speed and efficiency over the last updates.
     pub(super) efficiency: Efficiency,
     pub(super) alarms: Alarms,
     restarts: Arc<AtomicU64>,
@@ -62,7 +61,6 @@ pub(super) struct Reporting {
     simulated_before: u64,
     begun: Instant,
     wall_before_s: f64,
-    pub(super) env_steps_per_s: f64,
     /// Mean lag of the last batch.
     pub(super) lag_mean: f64,
 }
@@ -86,8 +84,7 @@ impl Reporting {
             config_file: options.folder.config(),
             action_names: options.action_names.clone(),
             reward_terms: RewardTerms::default(),
-            throughput: ThroughputMeter::new(state.counters.env_steps),
-            efficiency_meter: EfficiencyMeter::new(Instant::now()),
+            efficiency_meter: EfficiencyMeter::new(Instant::now(), state.counters.env_steps),
             efficiency: Efficiency::default(),
             alarms: Alarms::default(),
             restarts: options.restarts.clone(),
@@ -95,7 +92,6 @@ impl Reporting {
             simulated_before: state.counters.env_steps_simulated,
             begun: Instant::now(),
             wall_before_s: state.counters.wall_s,
-            env_steps_per_s: 0.0,
             lag_mean: 0.0,
         })
     }
@@ -144,12 +140,11 @@ impl Reporting {
             Ok(_) => fragments.iter().map(|accepted| accepted.fragment.transitions() as u64).sum(),
             Err(_) => 0,
         };
+        let (env_steps, effort) = (state.counters.env_steps, serving.intake.fleet.effort());
         self.efficiency =
-            self.efficiency_meter.mark(Instant::now(), learnt, serving.intake.fleet.effort(), alive.len());
+            self.efficiency_meter.mark(Instant::now(), env_steps, serving.waited, learnt, effort, alive.len());
         self.alarms.record_efficiency(self.efficiency, validator.counts.too_old, state.counters.undone_updates, config);
-        let env_steps = state.counters.env_steps;
-        let throughput = self.throughput.mark(env_steps, serving.waited);
-        (self.env_steps_per_s, self.lag_mean) = (throughput.env_steps_per_s, lag.mean);
+        self.lag_mean = lag.mean;
         let stats = self.stats.newest();
         self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
@@ -167,7 +162,6 @@ impl Reporting {
             durations: *durations,
             evaluation: evaluation.as_ref().map(|result| (&result.report, result.env_steps)),
             history: &self.history,
-            throughput,
             stats,
             efficiency: self.efficiency,
             alive,

@@ -48,7 +48,7 @@ impl Trainer {
             env_steps: state.counters.env_steps,
             updates: state.counters.updates,
             wall_s: state.counters.wall_s,
-            env_steps_per_s: reporting.env_steps_per_s,
+            env_steps_per_s: reporting.efficiency.env_steps_per_s,
             return_mean: means.map(|means| means.return_mean),
             length_mean: means.map(|means| means.length_mean),
             distance_mean_m: means.map(|means| means.distance_mean_m),

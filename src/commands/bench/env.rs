@@ -7,19 +7,18 @@ use rand::RngExt;
 use serde_json::{Value, json};
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
 use treadmill_config::Config;
-use treadmill_humanoid::{Environment, EnvironmentConfig, TaskRegistry};
+use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, TaskRegistry, task, worlds_per_pass};
 use treadmill_proto::EndCause;
 use treadmill_runtime::{machine, seeds};
 
-use super::{
-    bench_worlds::{self, BenchWorlds, WORLDS, fell},
-    rounded,
-};
+use super::rounded;
 use crate::launch::{
     model::{self, ModelArgs},
     output::say_result,
 };
 
+/// Number of humanoids, as many as an actor has: one alone would stay in the cache.
+const WORLDS: usize = 64;
 /// Number of random actions, which repeat; a multiple of [`WORLDS`].
 const ACTIONS: usize = 64 * WORLDS;
 
@@ -58,7 +57,7 @@ pub fn run(args: &EnvArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     // Reports errors of the model file.
     model::environment(tasks, &config, &text, file)?;
     let environment = config.environment();
-    let threads = bench_worlds::busy_threads(bench_worlds::threads(args.threads.into()));
+    let threads = WORLDS.div_ceil(worlds_per_thread(super::threads(args.threads.into())));
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let has_other_task = model::has_other_task(&config.env);
     let workload = Workload::new(tasks, &environment, &text, threads, rounds)?;
@@ -152,24 +151,66 @@ impl<'a> Workload<'a> {
     /// Returns the steps per second of the same actions without observation and reward. Bodies that fell are reset here too,
     /// because contact with the ground costs time.
     fn physics_only(&self) -> anyhow::Result<f64> {
-        let size = self.action_size;
-        let mut worlds =
-            BenchWorlds::new(self.tasks, self.config, self.model_xml, self.threads, |_| vec![0.0f32; size])?;
+        let world = |index| -> anyhow::Result<World> {
+            let environment = Environment::with_tasks(self.config, self.model_xml, self.tasks)?;
+            let (observation, controls) = (vec![0.0; environment.observation_size()], vec![0.0; self.action_size]);
+            let mut world = World { index, environment, resets: 0, observation, controls };
+            world.reset();
+            Ok(world)
+        };
+        let mut worlds = (0..WORLDS).map(world).collect::<anyhow::Result<Vec<_>>>()?;
         let begun = Instant::now();
-        worlds.step(
-            self.rounds,
-            |round, world, controls| {
-                let action = &self.actions_of(round)[world.index * size..][..size];
-                world.environment.action_from_shares(action, controls);
-                // A failure shows after the step.
-                let _ = world.environment.physics_mut().set_controls(controls);
-            },
-            |world, _, failed| {
-                if failed || fell(self.config, world) {
-                    world.reset();
-                }
-            },
-        );
+        thread::scope(|scope| {
+            for share in worlds.chunks_mut(worlds_per_thread(self.threads)) {
+                scope.spawn(|| self.step_physics(share));
+            }
+        });
         Ok(rounded(self.steps() as f64 / begun.elapsed().as_secs_f64()))
     }
+
+    /// Steps the physics of a thread's worlds in whole passes.
+    fn step_physics(&self, share: &mut [World]) {
+        let (size, env) = (self.action_size, &self.config.env);
+        for round in 0..self.rounds {
+            for pass in share.chunks_mut(worlds_per_pass()) {
+                for World { index, environment, controls, .. } in &mut *pass {
+                    environment.action_from_shares(&self.actions_of(round)[*index * size..][..size], controls);
+                    // A failure shows after the step.
+                    let _ = environment.physics_mut().set_controls(controls);
+                }
+                Physics::step_together(&mut pass.iter_mut().map(|world| world.environment.physics_mut()));
+                for world in pass {
+                    let physics = world.environment.physics_mut();
+                    let failed = physics.check_step().is_err();
+                    let fell = env.terminate_when_unhealthy && !task::is_healthy(env, physics.torso_height_m());
+                    if failed || fell {
+                        world.reset();
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Humanoid whose physics is stepped without a task.
+struct World {
+    index: usize,
+    environment: Environment,
+    resets: u64,
+    observation: Vec<f32>,
+    controls: Vec<f32>,
+}
+
+impl World {
+    /// Resets the humanoid, with a seed of this world.
+    fn reset(&mut self) {
+        let seed = seeds::derive(1, "bench-reset", &[self.index as u64, self.resets]);
+        self.resets += 1;
+        self.environment.reset(seed, &mut self.observation);
+    }
+}
+
+/// Returns how many worlds each of this many threads steps.
+fn worlds_per_thread(threads: usize) -> usize {
+    WORLDS.div_ceil(threads).next_multiple_of(worlds_per_pass())
 }

@@ -4,9 +4,7 @@
 //! - [`env`]: environment steps.
 //! - [`update`], [`policy`]: learner's update and actor's inference; [`network`]: their networks and inputs.
 //! - [`train`]: a whole training run.
-//! - [`bench_worlds`]: humanoids that are stepped on several threads.
 
-mod bench_worlds;
 mod env;
 mod network;
 mod policy;
@@ -15,6 +13,7 @@ mod update;
 
 use clap::{Args, Subcommand};
 use treadmill_humanoid::TaskRegistry;
+use treadmill_runtime::machine;
 
 /// Flags of `bench`.
 #[derive(Args)]
@@ -48,4 +47,9 @@ pub fn run(args: BenchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
 /// Rounds to one decimal.
 fn rounded(rate: f64) -> f64 {
     (rate * 10.0).round() / 10.0
+}
+
+/// Returns the number of threads for a flag's value; 0 means one per core.
+fn threads(wanted: usize) -> usize {
+    if wanted == 0 { machine::cores() } else { wanted }
 }

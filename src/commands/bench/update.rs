@@ -12,7 +12,6 @@ use treadmill_runtime::{error_chain, machine, seeds};
 use crate::launch::{exit_code::Usage, memory, output::say_result};
 
 use super::{
-    bench_worlds,
     network::{self, Widths},
     rounded,
 };
@@ -50,7 +49,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let mut random = seeds::stream(1, "bench-update", &[]);
     let parameters = initial_parameters(&shape, -0.5, &mut random);
     let batch = random_batch(&shape, config.batch as usize, &mut random);
-    let threads = bench_worlds::threads(args.threads.into());
+    let threads = super::threads(args.threads.into());
     let mut state = PpoState::new(&shape, parameters, random, &config);
     let options = PpoOptions { device, ..PpoOptions::on_cpu(shape, threads)? };
     let ppo = Ppo::new(options, &config);

@@ -3,9 +3,9 @@
 use std::{
     fs,
     io::{self, BufWriter, Read, Seek, Write},
+    os::unix::fs::PermissionsExt,
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
-    str::FromStr,
 };
 
 use anyhow::{Context, bail};
@@ -18,29 +18,13 @@ use crate::launch::exit_code::Usage;
 /// Longest part of ffmpeg's messages that is shown.
 const MESSAGE_BYTES_MAX: u64 = 2000;
 
-/// Width and height of a picture, in pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
-    /// Pixels in a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-}
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let sides = text
-            .split_once(['x', 'X', '×'])
-            .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-        match sides {
-            Some((width, height)) if (16..=4096).contains(&width) && (16..=4096).contains(&height) => {
-                Ok(Self { width, height })
-            }
-            _ => Err("expected width and height of 16 to 4096 pixels each, as in 320x240".to_string()),
-        }
-    }
+/// Reads width and height of a picture, in pixels.
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let sides =
+        text.split_once(['x', 'X', '×']).and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    let is_allowed = |(width, height): &(u32, u32)| (16..=4096).contains(width) && (16..=4096).contains(height);
+    let expected = "expected width and height of 16 to 4096 pixels each, as in 320x240";
+    sides.filter(is_allowed).ok_or_else(|| expected.to_string())
 }
 
 /// Animation under way. It gets its name when it is complete.
@@ -59,7 +43,7 @@ impl Film {
     ///
     /// # Errors
     /// If the extension is unknown, the folder is not writable, or `ffmpeg` is missing.
-    pub fn open(path: &Path, size: Size, fps: u32) -> anyhow::Result<Self> {
+    pub fn open(path: &Path, size: (u32, u32), fps: u32) -> anyhow::Result<Self> {
         let extension = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
         let is_mp4 = match extension.as_str() {
             "gif" => false,
@@ -116,18 +100,11 @@ impl Film {
     }
 }
 
-fn open_ffmpeg(path: &Path, file: TempPath, size: Size, fps: u32) -> anyhow::Result<Encoder> {
+fn open_ffmpeg(path: &Path, file: TempPath, size: (u32, u32), fps: u32) -> anyhow::Result<Encoder> {
     let messages = NamedTempFile::new()?;
     let mut command = Command::new("ffmpeg");
     command.args(["-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24"]);
-    command.args([
-        "-video_size",
-        &format!("{}x{}", size.width, size.height),
-        "-framerate",
-        &fps.to_string(),
-        "-i",
-        "-",
-    ]);
+    command.args(["-video_size", &format!("{}x{}", size.0, size.1), "-framerate", &fps.to_string(), "-i", "-"]);
     // Most players show only this pixel format, which needs even sides.
     command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-f", "mp4"]);
     command.arg(&*file).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(messages.reopen()?);
@@ -157,11 +134,7 @@ fn keep(file: TempPath, path: &Path) -> anyhow::Result<()> {
             return Ok(());
         }
     };
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(&file, fs::Permissions::from_mode(0o644))?;
-    }
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o644))?;
     file.persist(path)?;
     Ok(())
 }
@@ -171,10 +144,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn size_is_two_numbers_in_bounds() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+    fn a_size_has_two_numbers_in_bounds() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
         for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
-            assert!(wrong.parse::<Size>().unwrap_err().contains("320x240"), "{wrong}");
+            assert!(size(wrong).unwrap_err().contains("320x240"), "{wrong}");
         }
     }
 }

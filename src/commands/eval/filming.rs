@@ -12,11 +12,11 @@ use treadmill_humanoid::{Physics, task::velocity::BaseMotion};
 use treadmill_render::{Camera, Picture, Scene, film, scene::Colour};
 use treadmill_runtime::atomic_file;
 
-use super::film::{Film, Size};
+use super::film::{Film, size};
 use crate::launch::exit_code::Usage;
 
 /// Flags of pictures.
-#[derive(Args)]
+#[derive(Args, Clone)]
 #[command(group(ArgGroup::new("pictures").args(["film", "png"]).multiple(true)))]
 pub struct FilmArgs {
     /// Write all episodes as an animation, a GIF, or a video if FILE ends in .mp4 (needs ffmpeg); needs no window and
@@ -27,8 +27,8 @@ pub struct FilmArgs {
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
     /// Width and height of the pictures, in pixels.
-    #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures")]
-    size: Size,
+    #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures", value_parser = size)]
+    size: (u32, u32),
     /// Pictures per second.
     #[arg(
         long, value_name = "N", default_value_t = 25, requires = "pictures",
@@ -63,12 +63,8 @@ const ARROWS_APART_M: f64 = 0.06;
 
 /// Recorder of the episodes.
 pub struct Filming {
+    args: FilmArgs,
     film: Option<Film>,
-    png: Option<PathBuf>,
-    size: (u32, u32),
-    fps: u32,
-    from_s: f64,
-    until_s: f64,
     control_step_s: f64,
     /// Pictures so far, and those of the present episode.
     taken: u32,
@@ -89,12 +85,8 @@ impl FilmArgs {
             make_empty(folder)?;
         }
         Ok(Some(Filming {
+            args: self.clone(),
             film,
-            png: self.png.clone(),
-            size: (self.size.width, self.size.height),
-            fps: self.fps,
-            from_s: self.from_s,
-            until_s: self.seconds.map_or(f64::INFINITY, |seconds| self.from_s + seconds),
             control_step_s,
             taken: 0,
             taken_of_episode: 0,
@@ -147,12 +139,12 @@ impl Filming {
         if let Some(command) = step.start.command {
             add_velocities(&mut scene, step.environment.physics(), command);
         }
-        let picture = Picture::of(&scene, &camera, self.size);
+        let picture = Picture::of(&scene, &camera, self.args.size);
         for _ in 0..due {
             if let Some(film) = &mut self.film {
                 film.add(&picture)?;
             }
-            if let Some(folder) = &self.png {
+            if let Some(folder) = &self.args.png {
                 let path = folder.join(format!("{:05}.png", self.taken));
                 atomic_file::write(&path, &film::png(&picture)?)
                     .with_context(|| format!("cannot write `{}`", path.display()))?;
@@ -165,8 +157,10 @@ impl Filming {
 
     /// Returns how many pictures are due after the step at this time of the episode.
     fn due_pictures(&self, time_s: f64) -> usize {
-        let due_s = |taken: u32| self.from_s + f64::from(taken) / f64::from(self.fps);
-        let is_due = |taken: &u32| due_s(*taken) <= time_s + self.control_step_s / 2.0 && due_s(*taken) < self.until_s;
+        let FilmArgs { fps, from_s, seconds, .. } = self.args;
+        let until_s = seconds.map_or(f64::INFINITY, |seconds| from_s + seconds);
+        let due_s = |taken: u32| from_s + f64::from(taken) / f64::from(fps);
+        let is_due = |taken: &u32| due_s(*taken) <= time_s + self.control_step_s / 2.0 && due_s(*taken) < until_s;
         (self.taken_of_episode..).take_while(is_due).count()
     }
 
@@ -176,15 +170,15 @@ impl Filming {
             return Err(why);
         }
         if self.taken == 0 {
-            let why = format!("--from-s {}: every episode ended before", self.from_s);
+            let why = format!("--from-s {}: every episode ended before", self.args.from_s);
             return Err(Usage(why).into());
         }
         let mut files = Vec::new();
         if let Some(film) = self.film {
             files.push(film.finish()?);
         }
-        files.extend(self.png.map(|folder| folder.display().to_string()));
-        Ok(format!("{} pictures of {}x{}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
+        files.extend(self.args.png.map(|folder| folder.display().to_string()));
+        Ok(format!("{} pictures of {}x{}: {}", self.taken, self.args.size.0, self.args.size.1, files.join(", ")))
     }
 }
 

@@ -54,12 +54,8 @@ enum AgentKind {
 }
 
 impl AgentKind {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Policy => "policy",
-            Self::Random => "random",
-            Self::PreferredAction => "preferred-action",
-        }
+    fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_string()).unwrap_or_default()
     }
 }
 
@@ -143,7 +139,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             ));
         }
         if prints_rows && let Some(played) = &step.ended {
-            is_read = (step.episode > 1 || say_to_reader(headings(has_commands)))
+            is_read = (step.episode > 1 || say_to_reader(&headings(has_commands)))
                 && say_to_reader(&row(step.episode, played));
         }
         // Files are completed although the table has no reader.
@@ -159,7 +155,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         say(&as_json(args.agent, origin, &evaluation, control_step_s));
     } else {
         if prints_steps {
-            say(headings(has_commands));
+            say(&headings(has_commands));
             (1..).zip(&evaluation.episodes).for_each(|(episode, played)| say(&row(episode, played)));
         }
         print_summary(&args, origin.as_ref(), &evaluation, control_step_s);
@@ -249,14 +245,9 @@ fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     }
 }
 
-/// Headings of the table of episodes, without and with commands.
-const HEADINGS: [&str; 2] = [
-    "episode      return  length  distance m  velocity m/s  end",
-    "episode      return  length  distance m  velocity m/s  error m/s  error rad/s  end",
-];
-
-fn headings(has_commands: bool) -> &'static str {
-    HEADINGS[usize::from(has_commands)]
+fn headings(has_commands: bool) -> String {
+    let errors = if has_commands { "  error m/s  error rad/s" } else { "" };
+    format!("episode      return  length  distance m  velocity m/s{errors}  end")
 }
 
 fn row(episode: u32, played: &EpisodeResult) -> String {

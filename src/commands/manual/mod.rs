@@ -20,15 +20,7 @@ use crate::launch::output::say;
 #[derive(Args)]
 pub struct CompletionsArgs {
     /// Shell that the script is for.
-    shell: Shell,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Shell {
-    Bash,
-    Elvish,
-    Fish,
-    Zsh,
+    shell: clap_complete::Shell,
 }
 
 /// Flags of `man`.
@@ -56,13 +48,7 @@ enum Page {
 pub fn completions(args: &CompletionsArgs, mut program: Command) {
     let mut script = Vec::new();
     let name = program.get_name().to_string();
-    let shell = match args.shell {
-        Shell::Bash => clap_complete::Shell::Bash,
-        Shell::Elvish => clap_complete::Shell::Elvish,
-        Shell::Fish => clap_complete::Shell::Fish,
-        Shell::Zsh => clap_complete::Shell::Zsh,
-    };
-    clap_complete::generate(shell, &mut program, name, &mut script);
+    clap_complete::generate(args.shell, &mut program, name, &mut script);
     say(String::from_utf8_lossy(&script).trim_end());
 }
 

@@ -14,9 +14,12 @@ use serde_json::json;
 use treadmill_runtime::{numbers::thousands, words::shown};
 
 use self::record::Record;
-use crate::launch::{
-    exit_code::Usage,
-    output::{say, say_error},
+use crate::{
+    launch::{
+        exit_code::Usage,
+        output::{say, say_error},
+    },
+    shared::foreign_text::shorten,
 };
 
 /// Flags of `runs`.
@@ -128,8 +131,8 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
             let evaluated = tracked.or_else(|| record.best_eval_distance_m.map(|metres| format!("{metres:.1} m")));
             let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1} m)")));
             [
-                shortened(&record.name, NAME_CHARS_MAX),
-                shortened(&record.task(), TASK_CHARS_MAX),
+                shorten(&record.name, NAME_CHARS_MAX),
+                shorten(&record.task(), TASK_CHARS_MAX),
                 thousands(record.env_steps),
                 or_none(distance),
                 or_none(record.training_return.map(|sum| format!("{sum:.0}"))),
@@ -158,7 +161,7 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         let Record { tags, description, .. } = &records[number];
         let labels: String = tags.iter().map(|tag| format!("[{tag}] ")).collect::<String>() + description;
         if !labels.is_empty() {
-            say(&shown(&shortened(&format!("    {}", labels.trim_end()), ROW_CHARS_MAX)));
+            say(&shown(&shorten(&format!("    {}", labels.trim_end()), ROW_CHARS_MAX)));
         }
         for (key, value) in differences.and_then(|all| all.get(number)).into_iter().flatten() {
             say(&format!("    {key} = {value}"));
@@ -171,17 +174,6 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     if differences.is_none() && records.len() > 1 {
         say("Configuration keys that differ: treadmill runs --keys");
     }
-}
-
-/// Shortens a name in its middle.
-fn shortened(name: &str, chars_max: usize) -> String {
-    let chars: Vec<char> = name.chars().collect();
-    if chars.len() <= chars_max {
-        return name.to_string();
-    }
-    let head = chars_max / 2;
-    let tail = chars.len() - (chars_max - head - 1);
-    chars[..head].iter().chain(&['…']).chain(&chars[tail..]).collect()
 }
 
 fn duration(seconds: f64) -> String {
@@ -198,9 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_durations_are_formatted() {
-        assert_eq!(shortened("walk-1", 8), "walk-1");
-        assert_eq!(shortened("a-very-long-name", 8), "a-ve…ame");
+    fn durations_are_formatted() {
         assert_eq!(
             [4.2, 59.6, 61.0, 3599.0, 3660.0].map(duration),
             ["4 s", "1 min 00 s", "1 min 01 s", "59 min 59 s", "1 h 01 min"]

@@ -3,12 +3,11 @@
 use std::{
     collections::BTreeMap,
     fs::{self, File},
-    io::{BufRead, BufReader},
     path::{Path, PathBuf},
 };
 
 use anyhow::Context;
-use serde_json::Value;
+use treadmill_learner::metrics::jsonl::for_each_metric;
 use treadmill_runtime::{run_folder::RunFolder, run_lock::holder};
 
 /// Results of one run.
@@ -63,18 +62,17 @@ impl Record {
         let path = folder.join("metrics.jsonl");
         // A run that is just starting has no metrics.
         if let Ok(file) = File::open(&path) {
-            for line in BufReader::new(file).split(b'\n') {
-                let line = line.with_context(|| format!("cannot read `{}`", path.display()))?;
-                record.add_line(&line);
-            }
+            for_each_metric(file, |metric, _| {
+                record.add(&metric.tag, metric.value);
+                Ok(())
+            })
+            .with_context(|| format!("cannot read `{}`", path.display()))?;
         }
         Ok(record)
     }
 
-    /// Reads one line of metrics; ignores a damaged one.
-    fn add_line(&mut self, line: &[u8]) {
-        let Ok(metric) = serde_json::from_slice::<Value>(line) else { return };
-        let (Some(tag), Some(value)) = (metric["tag"].as_str(), metric["value"].as_f64()) else { return };
+    /// Adds the next metric of the log.
+    fn add(&mut self, tag: &str, value: f64) {
         match tag {
             "time/total_timesteps" => self.env_steps = value as u64,
             "time/time_elapsed" => self.wall_s = value,
@@ -137,23 +135,21 @@ mod tests {
     #[test]
     fn best_evaluation_and_last_value_of_other_metrics_count() {
         let mut record = Record::default();
-        for (tag, step, value) in [
-            ("time/total_timesteps", 100, 100.0),
-            ("eval/distance_mean_m", 100, 3.0),
-            ("eval/total_timesteps", 100, 60.0),
-            ("eval/distance_mean_m", 200, 9.5),
-            ("eval/total_timesteps", 200, 160.0),
-            ("eval/distance_mean_m", 300, 4.0),
-            ("eval/total_timesteps", 300, 260.0),
-            ("eval/velocity_error", 200, 0.2),
-            ("eval/velocity_error", 300, 0.3),
-            ("time/total_timesteps", 300, 300.0),
-            ("time/time_elapsed", 300, 2.0),
+        for (tag, value) in [
+            ("time/total_timesteps", 100.0),
+            ("eval/distance_mean_m", 3.0),
+            ("eval/total_timesteps", 60.0),
+            ("eval/distance_mean_m", 9.5),
+            ("eval/total_timesteps", 160.0),
+            ("eval/distance_mean_m", 4.0),
+            ("eval/total_timesteps", 260.0),
+            ("eval/velocity_error", 0.2),
+            ("eval/velocity_error", 0.3),
+            ("time/total_timesteps", 300.0),
+            ("time/time_elapsed", 2.0),
         ] {
-            record.add_line(serde_json::json!({"tag": tag, "step": step, "value": value}).to_string().as_bytes());
+            record.add(tag, value);
         }
-        record.add_line(b"{\"tag\":\"time/");
-        record.add_line(b"\xff\xfe");
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(160)));
         assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (false, 0.3)));
         record.velocity_error_mps = None;

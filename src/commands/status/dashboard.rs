@@ -12,7 +12,7 @@ use treadmill_bus::Role;
 use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{
-    draw::{self, Theme},
+    draw,
     fleet::Fleet,
     follow::{Follower, NEWS_QUEUED_MAX, News},
     keys::{self, KeyAction},
@@ -54,7 +54,7 @@ fn exit_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
 
 fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
     const UNUSABLE: &str = "the terminal cannot be used; plain text appears without --watch, or in a pipe";
-    let (theme, is_unicode) = (Theme::of_environment(), machine::is_utf8_locale());
+    let (is_coloured, is_unicode) = (draw::is_coloured(), machine::is_utf8_locale());
     let mut screen = TerminalScreen::open().context(UNUSABLE)?;
     let mut fleet = Fleet::new(Instant::now());
     while !shutdown.asked() {
@@ -68,7 +68,10 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
             }
         }
         let draw = |frame: &mut Frame| {
-            draw::draw(frame, &mut fleet, &theme, Instant::now());
+            draw::draw(frame, &mut fleet, Instant::now());
+            if !is_coloured {
+                draw::remove_colours(frame.buffer_mut());
+            }
             if !is_unicode {
                 draw::replace_unicode(frame.buffer_mut());
             }

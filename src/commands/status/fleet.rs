@@ -1,6 +1,6 @@
 //! State of the dashboard: all runs that answered, and the selected one.
 
-use std::{cmp::Ordering, collections::BTreeMap, time::Instant};
+use std::{collections::BTreeMap, time::Instant};
 
 use treadmill_proto::{ActorStatus, RunStatus, json::Metric};
 
@@ -20,25 +20,8 @@ pub const DISTANCE: &str = "rollout/distance_mean_m";
 pub const VELOCITY: &str = "rollout/velocity_mean_mps";
 /// Metric tag of the speed, in environment steps per second.
 pub const SPEED: &str = "time/fps";
-/// Metric tags of the last batch's shares by policy lag: 0 to 4 versions, and 5 or more.
-pub const LAGS: [&str; 6] = [
-    "bus/policy_lag_0_share",
-    "bus/policy_lag_1_share",
-    "bus/policy_lag_2_share",
-    "bus/policy_lag_3_share",
-    "bus/policy_lag_4_share",
-    "bus/policy_lag_5_up_share",
-];
-
-/// Metric tag of the last batch's mean policy lag, in versions.
-pub const LAG_MEAN: &str = "bus/policy_lag_mean";
-/// Tags of all curves.
+/// Tags of all curves, to which the dashboard subscribes.
 pub const CURVES: [&str; 4] = [RETURN, DISTANCE, VELOCITY, SPEED];
-
-/// Returns every tag that the dashboard subscribes to.
-pub fn tags() -> Vec<&'static str> {
-    CURVES.into_iter().chain(LAGS).chain([LAG_MEAN]).collect()
-}
 
 /// State of one run.
 #[derive(Clone, Debug)]
@@ -52,37 +35,16 @@ pub struct Run {
     /// Accepted bytes per second.
     pub bytes: Rate,
     curves: BTreeMap<&'static str, Curve>,
-    lags: [Option<f64>; LAGS.len()],
-    lag_mean: Option<f64>,
 }
 
 impl Run {
     fn new(status: RunStatus, now: Instant) -> Self {
-        Self {
-            status,
-            answered: now,
-            fragments: Rate::default(),
-            bytes: Rate::default(),
-            curves: BTreeMap::new(),
-            lags: [None; LAGS.len()],
-            lag_mean: None,
-        }
+        Self { status, answered: now, fragments: Rate::default(), bytes: Rate::default(), curves: BTreeMap::new() }
     }
 
     /// Returns a curve; it is empty before its first value.
     pub fn curve(&self, tag: &str) -> Curve {
         self.curves.get(tag).cloned().unwrap_or_default()
-    }
-
-    /// Returns the histogram of lags once a share is known.
-    pub fn lags(&self) -> Option<[f64; LAGS.len()]> {
-        let shares = self.lags.map(|share| share.unwrap_or_default());
-        self.lags.iter().any(Option::is_some).then_some(shares)
-    }
-
-    /// Returns the mean lag, of the histogram's batch if known.
-    pub fn lag_mean(&self) -> f64 {
-        self.lag_mean.unwrap_or(self.status.policy_lag_mean)
     }
 
     fn apply_status(&mut self, status: RunStatus, began: Instant, now: Instant) {
@@ -104,62 +66,27 @@ impl Run {
     }
 
     fn apply_metric(&mut self, metric: &Metric) {
-        if let Some(lag) = LAGS.iter().position(|tag| *tag == metric.tag) {
-            self.lags[lag] = Some(metric.value.clamp(0.0, 1.0));
-        } else if metric.tag == LAG_MEAN {
-            self.lag_mean = Some(metric.value);
-        } else if let Some(tag) = CURVES.into_iter().find(|tag| *tag == metric.tag) {
+        if let Some(tag) = CURVES.into_iter().find(|tag| *tag == metric.tag) {
             self.curves.entry(tag).or_default().push(metric.step, metric.value);
         }
     }
 }
 
-/// Sort order of the table of actors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ActorOrder {
-    /// By name.
-    #[default]
-    Name,
-    /// Slowest first.
-    Speed,
-    /// Furthest behind first.
-    Lag,
-    /// Longest silent first.
-    Contact,
+/// Order of the table of actors.
+struct ActorOrder {
+    /// Word that the dashboard shows.
+    name: &'static str,
+    /// Number that is least for the first actor; equal ones are ordered by name.
+    key: fn(&ActorStatus) -> f64,
 }
 
-impl ActorOrder {
-    fn next(self) -> Self {
-        match self {
-            Self::Name => Self::Speed,
-            Self::Speed => Self::Lag,
-            Self::Lag => Self::Contact,
-            Self::Contact => Self::Name,
-        }
-    }
-
-    /// Returns the word that the dashboard shows.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Name => "name",
-            Self::Speed => "slowest",
-            Self::Lag => "lag",
-            Self::Contact => "contact",
-        }
-    }
-
-    fn compare(self, a: &ActorStatus, b: &ActorStatus) -> Ordering {
-        let speed = |actor: &ActorStatus| actor.stats.as_ref().map_or(f64::INFINITY, |stats| stats.env_steps_per_s);
-        let contact = |actor: &ActorStatus| actor.since_contact_s.unwrap_or(-1.0);
-        let first = match self {
-            Self::Name => Ordering::Equal,
-            Self::Speed => speed(a).total_cmp(&speed(b)),
-            Self::Lag => b.lag_versions.cmp(&a.lag_versions),
-            Self::Contact => contact(b).total_cmp(&contact(a)),
-        };
-        first.then_with(|| a.name.cmp(&b.name))
-    }
-}
+/// Orders: by name, slowest first, furthest behind first, longest silent first.
+const ORDERS: [ActorOrder; 4] = [
+    ActorOrder { name: "name", key: |_| 0.0 },
+    ActorOrder { name: "slowest", key: |a| a.stats.as_ref().map_or(f64::INFINITY, |stats| stats.env_steps_per_s) },
+    ActorOrder { name: "lag", key: |a| -a.lag_versions.map_or(-1.0, |lag| lag as f64) },
+    ActorOrder { name: "contact", key: |a| -a.since_contact_s.unwrap_or(-1.0) },
+];
 
 /// All runs, the selected one and the scroll position.
 #[derive(Clone, Debug)]
@@ -171,8 +98,8 @@ pub struct Fleet {
     scroll: usize,
     /// Rows of the table when it was last drawn.
     visible_rows: usize,
-    /// Order of the actors.
-    pub order: ActorOrder,
+    /// Index of the actors' order.
+    order: usize,
     /// Whether the help is shown.
     pub shows_help: bool,
     /// Why no learner answers now.
@@ -188,7 +115,7 @@ impl Fleet {
             selected: 0,
             scroll: 0,
             visible_rows: 1,
-            order: ActorOrder::default(),
+            order: 0,
             shows_help: false,
             silence: None,
         }
@@ -234,7 +161,7 @@ impl Fleet {
             KeyAction::NextRun | KeyAction::PreviousRun if self.runs.is_empty() => {}
             KeyAction::NextRun => self.select((self.selected + 1) % self.runs.len()),
             KeyAction::PreviousRun => self.select((self.selected + self.runs.len() - 1) % self.runs.len()),
-            KeyAction::Order => self.order = self.order.next(),
+            KeyAction::Order => self.order = (self.order + 1) % ORDERS.len(),
             KeyAction::Up => self.scroll = self.scroll.saturating_sub(1),
             KeyAction::Down => self.scroll += 1,
             KeyAction::PageUp => self.scroll = self.scroll.saturating_sub(page),
@@ -258,11 +185,17 @@ impl Fleet {
         self.scroll
     }
 
+    /// Returns the name of the chosen order.
+    pub fn order_name(&self) -> &'static str {
+        ORDERS[self.order].name
+    }
+
     /// Returns the actors of the selected run in the chosen order.
     pub fn actors(&self) -> Vec<&ActorStatus> {
         let mut actors: Vec<_> =
             self.selected().map(|(run, ..)| run.status.actors.iter().collect()).unwrap_or_default();
-        actors.sort_by(|a, b| self.order.compare(a, b));
+        let key = ORDERS[self.order].key;
+        actors.sort_by(|a, b| key(a).total_cmp(&key(b)).then_with(|| a.name.cmp(&b.name)));
         actors
     }
 }

@@ -1,7 +1,8 @@
 //! Polls the learners' statuses and receives their metrics for the dashboard.
 
 use std::{
-    path::PathBuf,
+    fs::File,
+    path::{Path, PathBuf},
     sync::mpsc::{SyncSender, TrySendError},
     time::{Duration, Instant},
 };
@@ -10,10 +11,11 @@ use treadmill_bus::{
     Bus, BusOptions,
     observer::{MetricsFeed, newest_of_each_run, statuses},
 };
+use treadmill_learner::metrics::jsonl::for_each_metric;
 use treadmill_proto::{RunStatus, json::Metric};
 use treadmill_runtime::error_chain;
 
-use super::{WATCH_EVERY, fleet, past};
+use super::{WATCH_EVERY, fleet::CURVES};
 use crate::{
     diagnosis::Silence,
     shared::learner_address::{self, ReachArgs},
@@ -55,7 +57,7 @@ struct Closed;
 impl Follower {
     /// Subscribes to metrics on a session that was opened with these options.
     pub fn new(reach: ReachArgs, options: BusOptions, bus: Bus, news: SyncSender<News>) -> anyhow::Result<Self> {
-        let feed = MetricsFeed::open(&bus, reach.run.as_deref(), &fleet::tags())?;
+        let feed = MetricsFeed::open(&bus, reach.run.as_deref(), &CURVES)?;
         let metrics_file = reach.metrics_file();
         Ok(Self { reach, options, bus, feed, news, metrics_file })
     }
@@ -91,7 +93,7 @@ impl Follower {
     /// Loads earlier metrics after the first answer, because only metrics of known runs are kept.
     async fn load_past(&mut self) -> Result<(), Closed> {
         let Some(file) = self.metrics_file.take() else { return Ok(()) };
-        let past = tokio::task::spawn_blocking(move || past::read(&file)).await.unwrap_or_default();
+        let past = tokio::task::spawn_blocking(move || read_past(&file)).await.unwrap_or_default();
         self.send(News::Past(past))
     }
 
@@ -103,12 +105,12 @@ impl Follower {
             return Ok(());
         }
         let options = BusOptions { connect, ..self.options.clone() };
-        let moved = match learner_address::dial(&options, self.reach.run.as_deref()).await {
-            Ok(bus) => MetricsFeed::open(&bus, self.reach.run.as_deref(), &fleet::tags())
-                .map(|feed| (bus, feed))
-                .map_err(anyhow::Error::from),
-            Err(why) => Err(why),
-        };
+        let moved: anyhow::Result<_> = async {
+            let bus = learner_address::dial(&options, self.reach.run.as_deref()).await?;
+            let feed = MetricsFeed::open(&bus, self.reach.run.as_deref(), &CURVES)?;
+            Ok((bus, feed))
+        }
+        .await;
         match moved {
             Ok((bus, feed)) => {
                 self.feed = feed;
@@ -139,5 +141,35 @@ impl Follower {
             Ok(()) | Err(TrySendError::Full(_)) => Ok(()),
             Err(TrySendError::Disconnected(_)) => Err(Closed),
         }
+    }
+}
+
+/// Reads the metrics of curves that a run on this machine logged before; an unreadable log has none.
+fn read_past(log: &Path) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    let keep = |metric: Metric, _: &[u8]| {
+        if CURVES.contains(&&metric.tag[..]) {
+            metrics.push(metric);
+        }
+        Ok(())
+    };
+    let _ = File::open(log).and_then(|file| for_each_metric(file, keep));
+    metrics
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn past_curves_are_read_and_malformed_lines_skipped() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = folder.path().join("metrics.jsonl");
+        let metric = |tag: &str, step| Metric { run: "r".into(), tag: tag.into(), step, value: 1.5, time_unix_s: 2.0 };
+        let metrics = [metric("rollout/ep_rew_mean", 8), metric("train/std", 9), metric("time/fps", 16)];
+        let lines = metrics.each_ref().map(|metric| [b"\xff\n{}\n", &metric.to_json()[..], b"\n{\"run"].concat());
+        std::fs::write(&log, lines.join(&b'\n')).unwrap();
+        assert_eq!(read_past(&log), [metrics[0].clone(), metrics[2].clone()]);
+        assert_eq!(read_past(&folder.path().join("none")), []);
     }
 }

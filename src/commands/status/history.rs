@@ -46,14 +46,7 @@ impl Curve {
     fn thin(&mut self) {
         let (first, last) = (self.points[0].0, self.points[self.points.len() - 1]);
         self.spacing = (last.0 - first).div_ceil(POINTS_MAX as u64 / 2).max(1);
-        let mut next = first;
-        self.points.retain(|(step, _)| {
-            let is_kept = *step >= next;
-            if is_kept {
-                next = step.saturating_add(self.spacing);
-            }
-            is_kept
-        });
+        self.points.dedup_by(|(step, _), (kept, _)| *step < kept.saturating_add(self.spacing));
         if self.points.last().is_some_and(|kept| kept.0 < last.0) {
             self.points.push(last);
         }

@@ -4,8 +4,7 @@
 //! - [`plain`], [`json`]: the answers as text and as JSON.
 //! - [`local`]: runs of this machine: those that are trained now, and the results of one that is not.
 //! - [`dashboard`]: draws the answers on a terminal, again and again; [`keys`] has its keys.
-//! - [`follow`]: polls the learners and receives metrics for the dashboard.
-//! - [`past`]: reads metrics that a run on this machine logged before.
+//! - [`follow`]: polls the learners, and receives metrics or reads earlier ones, for the dashboard.
 //! - [`fleet`], [`history`]: the dashboard's state, of bounded size.
 //! - [`draw`]: draws that state.
 //! - [`waiting`]: waits until a run begins.
@@ -18,7 +17,6 @@ mod history;
 mod json;
 mod keys;
 mod local;
-mod past;
 mod plain;
 #[cfg(test)]
 mod samples;
@@ -65,8 +63,8 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     if watch {
         return if json || !terminal_screen::is_there() { follow_lines(&reach, json) } else { show_dashboard(&reach) };
     }
-    if let Some(idle) = local::idle(&reach) {
-        say(&idle?.describe(json));
+    if let Some(idle) = local::idle(&reach, json) {
+        say(&idle?);
         return Ok(());
     }
     let live = reach.live_folders();
@@ -119,8 +117,8 @@ fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
         if !is_read {
             return Ok(());
         }
-        if let Some(idle) = local::idle(&found) {
-            say(&idle?.describe(json));
+        if let Some(idle) = local::idle(&found, json) {
+            say(&idle?);
             return Ok(());
         }
         waiting.after(followed)?;

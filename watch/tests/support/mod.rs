@@ -45,10 +45,3 @@ pub fn treadmill(folder: &Path) -> Option<Command> {
     command.current_dir(folder).env_remove("TREADMILL_LOG").stdin(Stdio::null());
     Some(command)
 }
-
-/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
-#[allow(clippy::print_stderr, reason = "skipped tests are reported")]
-pub fn skip(why: &str) {
-    assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
-    eprintln!("SKIPPED: {why}");
-}

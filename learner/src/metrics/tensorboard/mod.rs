@@ -47,9 +47,6 @@ const CLASS_TENSOR: i32 = 2;
 /// `SessionLog.START` of `event.proto`.
 const SESSION_START: i32 = 1;
 
-/// Most file names that are tried until one is free.
-const NAMES_MAX: u32 = 10_000;
-
 /// Writer of one event file. A resumed run writes another one into the same folder; TensorBoard shows both as one run.
 #[derive(Debug)]
 pub struct EventWriter {
@@ -59,7 +56,7 @@ pub struct EventWriter {
 }
 
 impl EventWriter {
-    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`, whose name comes after all
+    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.0000` in `folder`, whose name comes after all
     /// others. Removes the file that holds how the run ended, because the run continues.
     pub fn create(folder: &Path, time_unix_s: f64, host: &str) -> io::Result<Self> {
         for ended in event_files(folder)?.iter().filter(|path| path.to_string_lossy().ends_with(END_SUFFIX)) {
@@ -237,14 +234,8 @@ fn create_new(folder: &Path, seconds: u64, host: &str, suffix: &str) -> io::Resu
     let host = if host.is_empty() { "localhost" } else { &host };
     let process = std::process::id();
     // Leading zeros make names sort by time, the order in which TensorBoard reads them.
-    let path = |count: u32| folder.join(format!("{FILE_PREFIX}{seconds:010}.{host}.{process}.{count:04}{suffix}"));
-    for count in 0..NAMES_MAX {
-        match OpenOptions::new().append(true).create_new(true).open(path(count)) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            opened => return opened,
-        }
-    }
-    Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("no free name for an event file in {}", folder.display())))
+    let name = format!("{FILE_PREFIX}{seconds:010}.{host}.{process}.0000{suffix}");
+    OpenOptions::new().append(true).create_new(true).open(folder.join(name))
 }
 
 #[cfg(test)]

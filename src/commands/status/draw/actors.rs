@@ -10,13 +10,16 @@ use ratatui::{
 use treadmill_proto::{ActorStats, ActorStatus};
 
 use super::{
-    Theme,
     figures::{UNKNOWN, duration, number, plain, short},
-    pieces::{Pieces, shorten},
+    pieces::Pieces,
+    theme::{BAD, GOOD, QUIET, STRONG, WARNING},
 };
-use crate::commands::status::{
-    fleet::Fleet,
-    plain::{fleet_rate, state},
+use crate::{
+    commands::status::{
+        fleet::Fleet,
+        plain::{fleet_rate, state},
+    },
+    shared::foreign_text::shorten,
 };
 
 /// Columns at the right end of the last line for the range of actors shown.
@@ -28,8 +31,6 @@ const NAME_WIDTH: u16 = 20;
 struct Column {
     title: &'static str,
     width: u16,
-    /// Columns of lower rank are shown first.
-    rank: usize,
     text: fn(&ActorStatus) -> String,
 }
 
@@ -41,53 +42,38 @@ fn or_unknown(text: Option<String>) -> String {
     text.filter(|text| !text.is_empty()).unwrap_or_else(|| UNKNOWN.to_string())
 }
 
-/// Columns from left to right.
+/// Columns from left to right, the most important first.
 const COLUMNS: [Column; 11] = [
-    Column { title: "host", width: 14, rank: 4, text: |a| or_unknown(stats(a, |s| shorten(&plain(&s.host), 14))) },
-    Column {
-        title: "version",
-        width: 8,
-        rank: 6,
-        text: |a| or_unknown(stats(a, |s| shorten(&plain(&s.program_version), 8))),
-    },
+    Column { title: "state", width: 11, text: |a| state(a).to_string() },
+    Column { title: "steps/s", width: 7, text: |a| or_unknown(stats(a, |s| number(s.env_steps_per_s))) },
+    Column { title: "lag", width: 5, text: |a| or_unknown(a.lag_versions.map(short)) },
+    Column { title: "contact", width: 7, text: |a| or_unknown(a.since_contact_s.map(duration)) },
+    Column { title: "host", width: 14, text: |a| or_unknown(stats(a, |s| shorten(&plain(&s.host), 14))) },
     Column {
         title: "policy",
         width: 6,
-        rank: 5,
         text: |a| or_unknown(a.stats.as_ref().and_then(|s| s.version).map(|version| short(version.number))),
     },
-    Column { title: "envs", width: 5, rank: 7, text: |a| or_unknown(stats(a, |s| short(s.envs.into()))) },
-    Column { title: "lag", width: 5, rank: 2, text: |a| or_unknown(a.lag_versions.map(short)) },
-    Column { title: "steps/s", width: 7, rank: 1, text: |a| or_unknown(stats(a, |s| number(s.env_steps_per_s))) },
-    Column { title: "contact", width: 7, rank: 3, text: |a| or_unknown(a.since_contact_s.map(duration)) },
-    Column { title: "dropped", width: 7, rank: 8, text: |a| or_unknown(stats(a, |s| short(s.dropped_by_rule))) },
-    Column { title: "resent", width: 6, rank: 9, text: |a| or_unknown(stats(a, |s| short(s.resent))) },
-    Column {
-        title: "MB",
-        width: 7,
-        rank: 10,
-        text: |a| or_unknown(stats(a, |s| number(s.resident_bytes as f64 / 1e6))),
-    },
-    Column { title: "state", width: 11, rank: 0, text: |a| state(a).to_string() },
+    Column { title: "version", width: 8, text: |a| or_unknown(stats(a, |s| shorten(&plain(&s.program_version), 8))) },
+    Column { title: "envs", width: 5, text: |a| or_unknown(stats(a, |s| short(s.envs.into()))) },
+    Column { title: "dropped", width: 7, text: |a| or_unknown(stats(a, |s| short(s.dropped_by_rule))) },
+    Column { title: "resent", width: 6, text: |a| or_unknown(stats(a, |s| short(s.resent))) },
+    Column { title: "MB", width: 7, text: |a| or_unknown(stats(a, |s| number(s.resident_bytes as f64 / 1e6))) },
 ];
 
 /// Returns the columns that fit beside a name of this width.
-fn fitting(width: u16, name_width: u16) -> Vec<&'static Column> {
+fn fitting(width: u16, name_width: u16) -> &'static [Column] {
     let mut width_left = width.saturating_sub(name_width);
-    let mut by_rank: Vec<usize> = (0..COLUMNS.len()).collect();
-    by_rank.sort_by_key(|column| COLUMNS[*column].rank);
-    let mut fitting: Vec<usize> = Vec::new();
-    for column in by_rank {
-        let Some(left) = width_left.checked_sub(COLUMNS[column].width + 1) else { break };
-        width_left = left;
-        fitting.push(column);
-    }
-    fitting.sort_unstable();
-    fitting.into_iter().map(|column| &COLUMNS[column]).collect()
+    let fits = |column: &&Column| {
+        let left = width_left.checked_sub(column.width + 1);
+        width_left = left.unwrap_or(0);
+        left.is_some()
+    };
+    &COLUMNS[..COLUMNS.iter().take_while(fits).count()]
 }
 
 /// Draws the table, and the range of actors shown in `keys`.
-pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_heading: bool, theme: &Theme) {
+pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_heading: bool) {
     let [heading, table] = Layout::vertical([Constraint::Length(has_heading.into()), Constraint::Fill(1)]).areas(area);
     let visible_rows = usize::from(table.height.saturating_sub(1));
     let first = fleet.show(visible_rows);
@@ -97,16 +83,16 @@ pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_he
         let alive = actors.iter().filter(|actor| actor.alive).count();
         let quarantined = actors.iter().filter(|actor| actor.quarantined).count();
         let mut pieces = Pieces::new(heading.width);
-        pieces.push(format!("actors {alive} alive"), theme.strong());
-        pieces.push(format!("{} steps/s together", number(fleet_rate(&run.status))), theme.quiet());
+        pieces.push(format!("actors {alive} alive"), STRONG);
+        pieces.push(format!("{} steps/s together", number(fleet_rate(&run.status))), QUIET);
         if quarantined > 0 {
-            pieces.push(format!("{quarantined} in quarantine"), theme.bad());
+            pieces.push(format!("{quarantined} in quarantine"), BAD);
         }
-        pieces.push(format!("by {}", fleet.order.name()), theme.quiet());
+        pieces.push(format!("by {}", fleet.order_name()), QUIET);
         frame.render_widget(pieces.line(), heading);
     }
     if actors.is_empty() {
-        return frame.render_widget(Paragraph::new("no actors yet").style(theme.quiet()), table);
+        return frame.render_widget(Paragraph::new("no actors yet").style(QUIET), table);
     }
     let shown = &actors[first..actors.len().min(first + visible_rows)];
     let longest = shown.iter().map(|actor| actor.name.chars().count()).max().unwrap_or_default();
@@ -119,19 +105,18 @@ pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_he
         .chain(columns.iter().map(|column| aligned(column, column.title.to_string(), Style::new())));
     let rows = shown.iter().map(|actor| {
         let name = Line::from(shorten(&actor.name, name_width.into()));
-        let cells = columns.iter().map(|column| aligned(column, (column.text)(actor), style(actor, column, theme)));
+        let cells = columns.iter().map(|column| aligned(column, (column.text)(actor), style(actor, column)));
         Row::new(std::iter::once(name).chain(cells))
     });
     let rows: Vec<Row> = rows.collect();
-    frame
-        .render_widget(Table::new(rows, widths).header(Row::new(titles).style(theme.quiet())).column_spacing(1), table);
+    frame.render_widget(Table::new(rows, widths).header(Row::new(titles).style(QUIET)).column_spacing(1), table);
     let range = format!(
         "{}–{} of {}",
         short(first as u64 + 1),
         short((first + shown.len()) as u64),
         short(actors.len() as u64)
     );
-    frame.render_widget(Line::styled(range, theme.quiet()).right_aligned(), keys);
+    frame.render_widget(Line::styled(range, QUIET).right_aligned(), keys);
 }
 
 /// Aligns numbers to the right and words to the left.
@@ -140,11 +125,11 @@ fn aligned(column: &Column, text: String, style: Style) -> Line<'static> {
     if matches!(column.title, "host" | "version" | "state") { line } else { line.right_aligned() }
 }
 
-fn style(actor: &ActorStatus, column: &Column, theme: &Theme) -> Style {
+fn style(actor: &ActorStatus, column: &Column) -> Style {
     match (column.title, actor.quarantined, actor.alive) {
-        ("state", true, _) => theme.bad(),
-        ("state", false, true) => theme.good(),
-        ("state", false, false) => theme.warning(),
+        ("state", true, _) => BAD,
+        ("state", false, true) => GOOD,
+        ("state", false, false) => WARNING,
         _ => Style::new(),
     }
 }

@@ -9,21 +9,20 @@ use ratatui::{
 };
 
 use super::{
-    Theme,
     figures::{known, number, short},
-    lag,
     pieces::Pieces,
+    theme::{CURVE, QUIET, STRONG},
 };
 use crate::commands::status::{
     fleet::{DISTANCE, RETURN, Run, SPEED, VELOCITY},
     history::Curve,
 };
 
-/// Smallest width with charts of velocity and lag.
+/// Smallest width with a chart of velocity.
 const WIDE: u16 = 120;
 
 /// Draws the charts side by side.
-pub fn draw(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let (metres, mps) = (known(status.distance_mean_m), known(status.velocity_mean_mps));
     let is_wide = area.width >= WIDE;
@@ -36,28 +35,22 @@ pub fn draw(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     if is_wide {
         charts.insert(2, (VELOCITY, format!("velocity {mps} m/s")));
     }
-    let count = charts.len() + usize::from(is_wide);
-    let areas = Layout::horizontal(vec![Constraint::Fill(1); count]).spacing(1).split(area);
+    let areas = Layout::horizontal(vec![Constraint::Fill(1); charts.len()]).spacing(1).split(area);
     for ((tag, title), area) in charts.into_iter().zip(areas.iter()) {
-        curve(frame, *area, &run.curve(tag), title, theme);
-    }
-    if is_wide {
-        lag::draw_bars(frame, areas[count - 1], run, theme);
+        curve(frame, *area, &run.curve(tag), title);
     }
 }
 
-fn curve(frame: &mut Frame, area: Rect, curve: &Curve, title: String, theme: &Theme) {
-    let block = Block::new().title(Line::styled(title, theme.strong()));
+fn curve(frame: &mut Frame, area: Rect, curve: &Curve, title: String) {
+    let block = Block::new().title(Line::styled(title, STRONG));
     let points: Vec<(f64, f64)> = curve.points().collect();
     let Some([x_bounds, y_bounds]) = bounds(&points) else {
-        let nothing = Paragraph::new("nothing yet").style(theme.quiet());
+        let nothing = Paragraph::new("nothing yet").style(QUIET);
         return frame.render_widget(nothing.block(block), area);
     };
-    let axis =
-        |bounds: [f64; 2], labels: [String; 2]| Axis::default().bounds(bounds).labels(labels).style(theme.quiet());
+    let axis = |bounds: [f64; 2], labels: [String; 2]| Axis::default().bounds(bounds).labels(labels).style(QUIET);
     let (first, last) = (points[0].0, points[points.len() - 1].0);
-    let data =
-        Dataset::default().marker(Marker::Braille).graph_type(GraphType::Line).style(theme.curve()).data(&points);
+    let data = Dataset::default().marker(Marker::Braille).graph_type(GraphType::Line).style(CURVE).data(&points);
     let chart = Chart::new(vec![data])
         .block(block)
         .legend_position(None)
@@ -82,12 +75,12 @@ fn bounds(points: &[(f64, f64)]) -> Option<[[f64; 2]; 2]> {
 }
 
 /// Draws the latest values in one line, for small terminals.
-pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
-    pieces.push(format!("return {}", known(status.return_mean)), theme.strong());
-    pieces.push(format!("{} m", known(status.distance_mean_m)), theme.strong());
-    pieces.push(format!("{} m/s", known(status.velocity_mean_mps)), theme.strong());
-    pieces.push(format!("{} steps long", known(status.length_mean)), theme.quiet());
+    pieces.push(format!("return {}", known(status.return_mean)), STRONG);
+    pieces.push(format!("{} m", known(status.distance_mean_m)), STRONG);
+    pieces.push(format!("{} m/s", known(status.velocity_mean_mps)), STRONG);
+    pieces.push(format!("{} steps long", known(status.length_mean)), QUIET);
     frame.render_widget(pieces.line(), area);
 }

@@ -9,11 +9,14 @@ use ratatui::{
 use treadmill_proto::{Phase, RunStatus};
 
 use super::{
-    Theme,
     figures::{count, duration, known, number, percent, plain, short},
-    pieces::{Pieces, shorten},
+    pieces::Pieces,
+    theme::{BAD, CURVE, GOOD, QUIET, STRONG, WARNING},
 };
-use crate::{commands::status::fleet::Run, shared::foreign_text::printable};
+use crate::{
+    commands::status::fleet::Run,
+    shared::foreign_text::{printable, shorten},
+};
 
 /// Time without an answer after which a run is shown as silent.
 const SILENT_AFTER: Duration = Duration::from_secs(6);
@@ -24,47 +27,37 @@ const BAR_MAX: usize = 40;
 const BAR_MIN: usize = 4;
 
 /// Draws three lines: title, progress and traffic.
-pub fn draw(
-    frame: &mut Frame,
-    area: Rect,
-    run: &Run,
-    place: (usize, usize),
-    silent: bool,
-    theme: &Theme,
-    now: Instant,
-) {
+pub fn draw(frame: &mut Frame, area: Rect, run: &Run, place: (usize, usize), silent: bool, now: Instant) {
     let [title, progress, traffic] = Layout::vertical([Constraint::Length(1); 3]).areas(area);
     let silent_for = now.saturating_duration_since(run.answered);
     let silent_for = (silent || silent_for >= SILENT_AFTER).then_some(silent_for);
-    frame.render_widget(title_line(title.width, run, place, silent_for, theme).line(), title);
-    frame.render_widget(progress_line(progress.width, &run.status, theme).line(), progress);
-    frame.render_widget(traffic_line(traffic.width, run, theme).line(), traffic);
+    frame.render_widget(title_line(title.width, run, place, silent_for).line(), title);
+    frame.render_widget(progress_line(progress.width, &run.status).line(), progress);
+    frame.render_widget(traffic_line(traffic.width, run).line(), traffic);
 }
 
-fn title_line(width: u16, run: &Run, place: (usize, usize), silent_for: Option<Duration>, theme: &Theme) -> Pieces {
+fn title_line(width: u16, run: &Run, place: (usize, usize), silent_for: Option<Duration>) -> Pieces {
     let status = &run.status;
     let mut pieces = Pieces::new(width);
     let (phase, style) = match (silent_for, status.phase()) {
-        (Some(silent_for), _) => {
-            (format!("learner gone, silent for {}", duration(silent_for.as_secs_f64())), theme.bad())
-        }
-        (None, Phase::Paused) => ("paused".to_string(), theme.warning()),
-        (None, Phase::Stopping) => ("stopping".to_string(), theme.warning()),
-        (None, Phase::Training | Phase::Unspecified) => ("training".to_string(), theme.good()),
+        (Some(silent_for), _) => (format!("learner gone, silent for {}", duration(silent_for.as_secs_f64())), BAD),
+        (None, Phase::Paused) => ("paused".to_string(), WARNING),
+        (None, Phase::Stopping) => ("stopping".to_string(), WARNING),
+        (None, Phase::Training | Phase::Unspecified) => ("training".to_string(), GOOD),
     };
     let width_left = usize::from(width).saturating_sub(phase.chars().count() + 2);
-    pieces.push(shorten(&status.run, width_left), theme.strong());
+    pieces.push(shorten(&status.run, width_left), STRONG);
     pieces.push(phase, style);
     if place.1 > 1 {
-        pieces.push(format!("run {} of {}", place.0, place.1), theme.quiet());
+        pieces.push(format!("run {} of {}", place.0, place.1), QUIET);
     }
-    pieces.push(format!("on {}", plain(&status.host)), theme.quiet());
-    pieces.push(format!("process {}", status.pid), theme.quiet());
-    pieces.push(format!("version {}", plain(&status.program_version)), theme.quiet());
+    pieces.push(format!("on {}", plain(&status.host)), QUIET);
+    pieces.push(format!("process {}", status.pid), QUIET);
+    pieces.push(format!("version {}", plain(&status.program_version)), QUIET);
     pieces
 }
 
-fn progress_line(width: u16, status: &RunStatus, theme: &Theme) -> Pieces {
+fn progress_line(width: u16, status: &RunStatus) -> Pieces {
     let share = status.env_steps as f64 / status.env_steps_wanted.max(1) as f64;
     let left_s = status.env_steps_wanted.saturating_sub(status.env_steps) as f64 / status.env_steps_per_s;
     let how = if width < NARROW { short } else { count };
@@ -79,55 +72,56 @@ fn progress_line(width: u16, status: &RunStatus, theme: &Theme) -> Pieces {
     let mut pieces = Pieces::new(width);
     if bar >= BAR_MIN {
         let done = (share.clamp(0.0, 1.0) * bar as f64).round() as usize;
-        pieces.push("█".repeat(done) + &"░".repeat(bar - done), theme.curve());
+        pieces.push("█".repeat(done) + &"░".repeat(bar - done), CURVE);
     }
     for word in words {
-        pieces.push(word, theme.strong());
+        pieces.push(word, STRONG);
     }
     pieces
 }
 
-fn traffic_line(width: u16, run: &Run, theme: &Theme) -> Pieces {
+fn traffic_line(width: u16, run: &Run) -> Pieces {
     let status = &run.status;
     let fragments = if width < NARROW { "frag" } else { "fragments" };
     let mut pieces = Pieces::new(width);
-    pieces.push(format!("{} steps/s", number(status.env_steps_per_s)), theme.strong());
-    pieces.push(format!("{} {fragments}/s", known(run.fragments.per_s())), theme.strong());
+    pieces.push(format!("{} steps/s", number(status.env_steps_per_s)), STRONG);
+    pieces.push(format!("{} {fragments}/s", known(run.fragments.per_s())), STRONG);
     let mb_per_s = (status.accepted_bytes > 0).then(|| run.bytes.per_s()).flatten().map(|bytes| bytes / 1e6);
-    pieces.push(format!("{} MB/s", known(mb_per_s)), theme.strong());
-    pieces.push(format!("{} updates", count(status.updates)), theme.quiet());
-    pieces.push(format!("the last {} ago", duration(status.since_update_s)), theme.quiet());
+    pieces.push(format!("{} MB/s", known(mb_per_s)), STRONG);
+    pieces.push(format!("{} updates", count(status.updates)), QUIET);
+    pieces.push(format!("the last {} ago", duration(status.since_update_s)), QUIET);
     if let Some(share) = status.used_share {
-        pieces.push(format!("{} used", percent(share)), theme.strong());
+        pieces.push(format!("{} used", percent(share)), STRONG);
     }
     if let Some(share) = status.idle_share {
-        pieces.push(format!("{} idle", percent(share)), theme.quiet());
+        pieces.push(format!("{} idle", percent(share)), QUIET);
     }
-    pieces.push(format!("learner {} MB", number(status.resident_bytes as f64 / 1e6)), theme.quiet());
+    pieces.push(format!("learner {} MB", number(status.resident_bytes as f64 / 1e6)), QUIET);
     pieces
 }
 
 /// Draws an alarm on each line.
-pub fn alarms(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+pub fn alarms(frame: &mut Frame, area: Rect, run: &Run) {
     for (alarm, line) in run.status.alarms.iter().zip(area.rows()) {
         let mut pieces = Pieces::new(area.width);
-        pieces.push(shorten(&printable(alarm, area.width.into()), area.width.into()), theme.bad());
+        pieces.push(shorten(&printable(alarm, area.width.into()), area.width.into()), BAD);
         frame.render_widget(pieces.line(), line);
     }
 }
 
-/// Draws the counts of fragments by outcome; zeros are omitted.
-pub fn fragments(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+/// Draws the mean policy lag, and the counts of fragments by outcome; zeros are omitted.
+pub fn fragments(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
-    pieces.push("fragments", theme.quiet());
-    pieces.push(format!("{} accepted", count(status.accepted)), theme.quiet());
+    pieces.push(format!("lag {} mean", number(status.policy_lag_mean)), STRONG);
+    pieces.push("fragments", QUIET);
+    pieces.push(format!("{} accepted", count(status.accepted)), QUIET);
     for (name, fragments, style) in [
-        ("malformed", status.malformed, theme.bad()),
-        ("quarantined", status.quarantined, theme.bad()),
-        ("too old", status.too_old, theme.warning()),
-        ("vanished", status.vanished, theme.warning()),
-        ("duplicate", status.duplicate, theme.quiet()),
+        ("malformed", status.malformed, BAD),
+        ("quarantined", status.quarantined, BAD),
+        ("too old", status.too_old, WARNING),
+        ("vanished", status.vanished, WARNING),
+        ("duplicate", status.duplicate, QUIET),
     ] {
         if fragments > 0 {
             pieces.push(format!("{} {name}", count(fragments)), style);

@@ -1,55 +1,41 @@
-//! Colours of the dashboard.
+//! Styles of the dashboard, and its appearance on simple terminals.
 
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::{
+    buffer::Buffer,
+    style::{Color, Modifier, Style},
+};
+use treadmill_runtime::words::ascii;
 
-/// Styles of text. Without colours, only the weight differs.
-#[derive(Clone, Copy, Debug)]
-pub struct Theme {
-    coloured: bool,
+/// Names and headings.
+pub const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
+/// Explanations.
+pub const QUIET: Style = Style::new().add_modifier(Modifier::DIM);
+/// Good states.
+pub const GOOD: Style = Style::new().fg(Color::Green);
+/// Warnings.
+pub const WARNING: Style = Style::new().fg(Color::Yellow).add_modifier(Modifier::BOLD);
+/// Bad states.
+pub const BAD: Style = Style::new().fg(Color::Red).add_modifier(Modifier::BOLD);
+/// Curves and bars.
+pub const CURVE: Style = Style::new().fg(Color::Cyan);
+
+/// Returns whether colours are wanted: `NO_COLOR` is not set (<https://no-color.org>).
+pub fn is_coloured() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-impl Theme {
-    /// Creates a theme with or without colours.
-    pub fn new(coloured: bool) -> Self {
-        Self { coloured }
+/// Removes colours, so that only the weight of text differs.
+pub fn remove_colours(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
     }
+}
 
-    /// Creates a theme without colours if `NO_COLOR` is set (<https://no-color.org>).
-    pub fn of_environment() -> Self {
-        Self::new(std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()))
-    }
-
-    /// Returns the style of names and headings.
-    pub fn strong(&self) -> Style {
-        Style::new().add_modifier(Modifier::BOLD)
-    }
-
-    /// Returns the style of explanations.
-    pub fn quiet(&self) -> Style {
-        Style::new().add_modifier(Modifier::DIM)
-    }
-
-    /// Returns the style of a good state.
-    pub fn good(&self) -> Style {
-        self.colour(Color::Green)
-    }
-
-    /// Returns the style of a warning.
-    pub fn warning(&self) -> Style {
-        self.colour(Color::Yellow).add_modifier(Modifier::BOLD)
-    }
-
-    /// Returns the style of a bad state.
-    pub fn bad(&self) -> Style {
-        self.colour(Color::Red).add_modifier(Modifier::BOLD)
-    }
-
-    /// Returns the style of curves and bars.
-    pub fn curve(&self) -> Style {
-        self.colour(Color::Cyan)
-    }
-
-    fn colour(&self, colour: Color) -> Style {
-        if self.coloured { Style::new().fg(colour) } else { Style::new() }
+/// Replaces what a terminal without Unicode cannot show.
+pub fn replace_unicode(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        if let Some(shown) = cell.symbol().chars().next().filter(|_| !cell.symbol().is_ascii()) {
+            cell.set_char(ascii(shown));
+        }
     }
 }
