@@ -8,12 +8,6 @@ fn learner(folder: &Path, name: &str, more: &[&str]) -> Running {
     Running::start(takeover::learner(folder, &format!("file://{}/store", folder.display()), name, more))
 }
 
-fn start(folder: &Path, args: &[&str]) -> Running {
-    let mut command = treadmill(folder);
-    command.args(args);
-    Running::start(command)
-}
-
 #[test]
 fn actors_that_know_only_a_router_go_on_with_the_standby_over_tls() {
     let folder = tempfile::tempdir().unwrap();

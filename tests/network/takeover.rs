@@ -49,9 +49,8 @@ impl Fleet {
         prepare(&mut command);
         let standby = Running::start(command);
         let following = first_endpoint(&standby);
-        let mut command = treadmill(at);
-        command.args(["actor", "--envs", "8", "--name", "one", "--connect", &leading, "--connect", &following]);
-        let actor = Running::start(command);
+        let actor =
+            start(at, &["actor", "--envs", "8", "--name", "one", "--connect", &leading, "--connect", &following]);
         await_steps(&at.join("first"), 4096);
         standby.wait_for("run `walk` is at");
         Self { url: url.to_string(), folder, leading, leader, standby, actor }
