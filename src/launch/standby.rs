@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use treadmill_bus::{
     BusError,
-    observer::{is_any_actor_present, is_learner_present, statuses},
+    observer::{is_actor_present, is_learner_present, statuses},
 };
 use treadmill_learner::leadership::{
     LeadershipError, Manifest, Status,
@@ -150,7 +150,7 @@ impl Standby {
 /// Looks for the leader of this epoch and for actors.
 async fn look(host: &Host<'_>, run: &str, epoch: u64) -> Result<Sight, BusError> {
     // First, so that a link that comes back in between does not show actors beside a leader that was asked before.
-    let actors = is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await?;
+    let actors = is_actor_present(&host.bus, run, "*", TOKEN_TIMEOUT).await?;
     let has_token = is_learner_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let leader = match has_token {
         true => ask_leader(host, run, epoch).await?,

@@ -37,7 +37,7 @@ fn actor(folder: &Path, endpoint: &str, certs: &str) -> Command {
 
 /// Subscribes and counts messages.
 fn listen(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
-    let count = Arc::new(AtomicU64::new(0));
+    let count = Arc::<AtomicU64>::default();
     let counted = count.clone();
     let count_one = move |_| {
         counted.fetch_add(1, Ordering::Relaxed);
@@ -97,9 +97,10 @@ fn an_actor_can_neither_forge_the_learners_messages_nor_read_those_of_other_acto
     let spied_metrics = listen(&spy, "treadmill/run/metrics/**");
     let poses = listen(&spy, "treadmill/run/poses/*");
     let poses_seen = listen(&observer, "treadmill/run/poses/*");
+    let copies_seen = listen(&observer, "treadmill/run/@rollouts/*");
     let statistics = listen(&spy, "treadmill/run/actors/*/stats");
-    await_that("an observer reads metrics, announcements and poses", || {
-        let all = [&metrics, &versions, &poses_seen];
+    await_that("an observer reads metrics, announcements, poses and copies of rollouts", || {
+        let all = [&metrics, &versions, &poses_seen, &copies_seen];
         all.iter().all(|count| count.load(Ordering::Relaxed) > 0).then_some(())
     });
     for _ in 0..20 {

@@ -1,10 +1,8 @@
 //! Poses of an actor: made and sent only while an observer subscribes.
 
-use std::time::Duration;
-
 use crate::support::*;
 use treadmill_bus::{
-    Bus, Role,
+    Bus,
     actor::PosePublisher,
     observer::{Feed, Message, observe},
 };
@@ -55,24 +53,6 @@ fn observers_see_episodes_from_their_start() {
         last = pose;
     }
     assert!(episodes > 0, "a body that has learnt nothing falls within {} steps", 100 * STRIDE);
-}
-
-#[test]
-fn observers_can_read_poses_and_actors_cannot() {
-    let (folder, run) = folders();
-    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let _training = start_endless(
-        folder.path(),
-        &run,
-        "train",
-        &["--listen", "tls/127.0.0.1:0", "--tls", "certs", "--actors", "1"],
-    );
-    let [actor, observer] = [Role::Actor, Role::Observer].map(|role| join_as(role, folder.path(), &run));
-    let [actors, observers] = [&actor, &observer].map(|bus| observe(bus, "treadmill/run/poses/*", RING).unwrap());
-    for _ in 0..10 {
-        next(&observers);
-    }
-    assert_eq!(actors.next(Duration::ZERO), None);
 }
 
 #[test]
