@@ -5,7 +5,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let schemas = ["policy", "rollout", "stats", "evaluation", "control", "task", "poses"]
         .map(|name| format!("schema/{name}.proto"));
     let files = protox::compile(schemas, ["schema"])?;
-    prost_build::Config::new().bytes(["."]).compile_fds(files)?;
+    prost_build::Config::new()
+        .bytes(["."])
+        .type_attribute(".treadmill.v1.PolicyVersion", "#[derive(serde::Serialize, serde::Deserialize)]")
+        // No part of a checkpoint.
+        .field_attribute(".treadmill.v1.PolicyVersion.epoch", "#[serde(skip)]")
+        .compile_fds(files)?;
     println!("cargo:rerun-if-changed=onnx");
     prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;
     println!("cargo:rerun-if-changed=tensorboard");

@@ -59,7 +59,7 @@ impl PoseSampler {
             run: self.identity.run.clone(),
             actor: self.identity.actor.clone(),
             actor_incarnation: self.identity.incarnation,
-            version: Some(version.into()),
+            version: Some(version),
             config_hash: self.identity.config_hash,
             episode: first.episode,
             step: first.step,

@@ -300,7 +300,7 @@ impl<'a> Membership<'a> {
             incarnation: self.identity.incarnation,
             host: machine::host_name(),
             pid: std::process::id(),
-            version: Some(self.shared.policies.current().version.into()),
+            version: Some(self.shared.policies.current().version),
             envs: self.options.envs,
             env_steps_per_s: rate.update(env_steps),
             env_steps,

@@ -31,7 +31,7 @@ impl PolicyAnnouncement {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         let Self { version, checksum, actor_checksum } = *self;
-        wire::PolicyAnnouncement { version: Some(version.into()), checksum, actor_checksum }.encode_to_vec()
+        wire::PolicyAnnouncement { version: Some(version), checksum, actor_checksum }.encode_to_vec()
     }
 
     /// Decodes and checks untrusted protobuf bytes.
@@ -135,28 +135,18 @@ impl PolicyBundle {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        let bytes = wire::PolicyBundle {
-            run: self.run.clone(),
-            version: Some(self.version.into()),
-            observation_size: self.observation_size,
-            action_size: self.action_size,
-            hidden: self.hidden.clone(),
-            weights: self.weights.clone(),
-            observation_mean: planes::to_bytes(&self.observation_mean),
-            observation_inverse_std: planes::to_bytes(&self.observation_inverse_std),
-            observation_clip: self.observation_clip,
-            config_hash: self.config_hash,
-            config_toml: self.config_toml.clone(),
-            model_xml: self.model_xml.clone(),
-            checksum: self.checksum,
-            actor_state: self.actor_state.clone(),
-            fragment_steps: self.fragment_steps,
-            wire_version: self.wire_version,
-            wire_version_min: self.wire_version_min,
-            physics_version: self.physics_version,
-            privileged_size: self.privileged_size,
-        }
-        .encode_to_vec();
+        let message = message!(
+            wire::PolicyBundle,
+            clone self [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
+                model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
+                privileged_size],
+            {
+                version: Some(self.version),
+                observation_mean: planes::to_bytes(&self.observation_mean),
+                observation_inverse_std: planes::to_bytes(&self.observation_inverse_std),
+            }
+        );
+        let bytes = message.encode_to_vec();
         check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
         Ok(bytes)
     }
@@ -169,31 +159,18 @@ impl PolicyBundle {
         let message = wire::PolicyBundle::decode(bytes).map_err(Malformed::undecodable(BUNDLE))?;
         check_range("observation_size", message.observation_size, WIDTH_MAX)?;
         let size = message.observation_size as usize;
-        let bundle = Self {
-            version: version::required(message.version)?,
-            observation_mean: planes::from_bytes("observation_mean", &message.observation_mean, size)?,
-            observation_inverse_std: planes::from_bytes(
-                "observation_inverse_std",
-                &message.observation_inverse_std,
-                size,
-            )?,
-            run: message.run,
-            observation_size: message.observation_size,
-            action_size: message.action_size,
-            hidden: message.hidden,
-            weights: message.weights,
-            observation_clip: message.observation_clip,
-            config_hash: message.config_hash,
-            config_toml: message.config_toml,
-            model_xml: message.model_xml,
-            checksum: message.checksum,
-            actor_state: message.actor_state,
-            fragment_steps: message.fragment_steps,
-            wire_version: message.wire_version,
-            wire_version_min: message.wire_version_min,
-            physics_version: message.physics_version,
-            privileged_size: message.privileged_size,
-        };
+        let plane = |field, bytes: &Bytes| planes::from_bytes(field, bytes, size);
+        let bundle = message!(
+            Self,
+            message [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
+                model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
+                privileged_size],
+            {
+                version: version::required(message.version)?,
+                observation_mean: plane("observation_mean", &message.observation_mean)?,
+                observation_inverse_std: plane("observation_inverse_std", &message.observation_inverse_std)?,
+            }
+        );
         bundle.check()?;
         Ok(bundle)
     }

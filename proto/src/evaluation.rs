@@ -38,20 +38,12 @@ pub struct EvaluationReport {
 impl EvaluationReport {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
-        wire::EvaluationReport {
-            run: self.run.clone(),
-            evaluator: self.evaluator.clone(),
-            version: Some(self.version.into()),
-            episodes: self.episodes,
-            return_mean: self.return_mean,
-            return_std: self.return_std,
-            length_mean: self.length_mean,
-            distance_mean_m: self.distance_mean_m,
-            velocity_mean_mps: self.velocity_mean_mps,
-            falls: self.falls,
-            velocity_error_mps: self.velocity_error_mps,
-            yaw_rate_error_radps: self.yaw_rate_error_radps,
-        }
+        message!(
+            wire::EvaluationReport,
+            clone self [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps, falls,
+                velocity_error_mps, yaw_rate_error_radps],
+            { version: Some(self.version) }
+        )
         .encode_to_vec()
     }
 
@@ -79,20 +71,12 @@ impl EvaluationReport {
         if message.falls > message.episodes {
             return Err(Malformed::field("falls", message.falls, format!("0 to {}, the episodes", message.episodes)));
         }
-        Ok(Self {
-            run: message.run,
-            evaluator: message.evaluator,
-            version: version::required(message.version)?,
-            episodes: message.episodes,
-            return_mean: message.return_mean,
-            return_std: message.return_std,
-            length_mean: message.length_mean,
-            distance_mean_m: message.distance_mean_m,
-            velocity_mean_mps: message.velocity_mean_mps,
-            falls: message.falls,
-            velocity_error_mps: message.velocity_error_mps,
-            yaw_rate_error_radps: message.yaw_rate_error_radps,
-        })
+        Ok(message!(
+            Self,
+            message [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps, falls,
+                velocity_error_mps, yaw_rate_error_radps],
+            { version: version::required(message.version)? }
+        ))
     }
 }
 

@@ -204,33 +204,22 @@ impl Fragment {
     /// Encodes as protobuf; the observations must already be rounded to `precision`.
     pub fn encode_as(&self, precision: Precision) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        let message = wire::Fragment {
-            run: self.run.clone(),
-            actor: self.actor.clone(),
-            actor_incarnation: self.actor_incarnation,
-            sequence: self.sequence,
-            version: Some(self.version.into()),
-            config_hash: self.config_hash,
-            steps: self.steps,
-            envs: self.envs,
-            observation_size: self.observation_size,
-            action_size: self.action_size,
-            observations: precision.to_bytes("observations", &self.observations)?,
-            actions: planes::to_bytes(&self.actions),
-            log_probs: planes::to_bytes(&self.log_probs),
-            rewards: planes::to_bytes(&self.rewards),
-            flags: Bytes::copy_from_slice(&self.flags),
-            last_observations: precision.to_bytes("last_observations", &self.last_observations)?,
-            episodes: self.episodes.iter().map(Into::into).collect(),
-            settled_through: self.settled_through,
-            actor_state: self.actor_state.clone(),
-            observation_precision: wire::Precision::from(precision).into(),
-            env_steps: self.env_steps,
-            collect_s: self.collect_s,
-            wire_version: self.wire_version,
-            physics_version: self.physics_version,
-            reward_terms: self.reward_terms.clone(),
-        };
+        let message = message!(
+            wire::Fragment,
+            clone self [run, actor, actor_incarnation, sequence, config_hash, steps, envs, observation_size, action_size,
+                settled_through, actor_state, env_steps, collect_s, wire_version, physics_version, reward_terms],
+            {
+                version: Some(self.version),
+                observations: precision.to_bytes("observations", &self.observations)?,
+                actions: planes::to_bytes(&self.actions),
+                log_probs: planes::to_bytes(&self.log_probs),
+                rewards: planes::to_bytes(&self.rewards),
+                flags: Bytes::copy_from_slice(&self.flags),
+                last_observations: precision.to_bytes("last_observations", &self.last_observations)?,
+                episodes: self.episodes.iter().map(Into::into).collect(),
+                observation_precision: wire::Precision::from(precision).into(),
+            }
+        );
         let bytes = message.encode_to_vec();
         check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
         Ok(bytes)
@@ -257,32 +246,21 @@ impl Fragment {
         let precision = Precision::try_from(message.observation_precision)?;
         // `check` compares this number with the flags.
         let last_count = last_observations.remaining() / precision.bytes();
-        let fragment = Self {
-            version: version::required(message.version)?,
-            observations: precision.read("observations", observations, rows * width)?,
-            actions: planes::read("actions", actions, rows * action)?,
-            log_probs: planes::read("log_probs", log_probs, rows)?,
-            rewards: planes::read("rewards", rewards, rows)?,
-            last_observations: precision.read("last_observations", last_observations, last_count)?,
-            flags: message.flags.to_vec(),
-            episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
-            run: message.run,
-            actor: message.actor,
-            actor_incarnation: message.actor_incarnation,
-            sequence: message.sequence,
-            config_hash: message.config_hash,
-            steps: message.steps,
-            envs: message.envs,
-            observation_size: message.observation_size,
-            action_size: message.action_size,
-            settled_through: message.settled_through,
-            actor_state: message.actor_state,
-            env_steps: message.env_steps,
-            collect_s: message.collect_s,
-            wire_version: message.wire_version,
-            physics_version: message.physics_version,
-            reward_terms: message.reward_terms,
-        };
+        let fragment = message!(
+            Self,
+            message [run, actor, actor_incarnation, sequence, config_hash, steps, envs, observation_size, action_size,
+                settled_through, actor_state, env_steps, collect_s, wire_version, physics_version, reward_terms],
+            {
+                version: version::required(message.version)?,
+                observations: precision.read("observations", observations, rows * width)?,
+                actions: planes::read("actions", actions, rows * action)?,
+                log_probs: planes::read("log_probs", log_probs, rows)?,
+                rewards: planes::read("rewards", rewards, rows)?,
+                last_observations: precision.read("last_observations", last_observations, last_count)?,
+                flags: message.flags.to_vec(),
+                episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
+            }
+        );
         fragment.check()?;
         Ok(fragment)
     }
@@ -350,23 +328,21 @@ fn check_flags(flags: &[u8], rows: usize) -> Result<(), Malformed> {
     }
 }
 
+const CAUSES: [(EndCause, wire::EndCause); 4] = [
+    (EndCause::Fell, wire::EndCause::Fell),
+    (EndCause::TimeLimit, wire::EndCause::TimeLimit),
+    (EndCause::NonFinite, wire::EndCause::NonFinite),
+    (EndCause::Terminated, wire::EndCause::Terminated),
+];
+
 impl From<&Episode> for wire::Episode {
     fn from(episode: &Episode) -> Self {
-        let cause = match episode.cause {
-            EndCause::Fell => wire::EndCause::Fell,
-            EndCause::TimeLimit => wire::EndCause::TimeLimit,
-            EndCause::NonFinite => wire::EndCause::NonFinite,
-            EndCause::Terminated => wire::EndCause::Terminated,
-        };
-        Self {
-            return_sum: episode.return_sum,
-            length: episode.length,
-            distance_m: episode.distance_m,
-            velocity_mean_mps: episode.velocity_mean_mps,
-            cause: cause.into(),
-            ground_level: episode.ground_level,
-            command_factor: episode.command_factor,
-        }
+        let cause = CAUSES.iter().find(|(ours, _)| *ours == episode.cause).map(|(_, wire)| *wire);
+        message!(
+            Self,
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_level, command_factor],
+            { cause: cause.unwrap_or_default().into() }
+        )
     }
 }
 
@@ -374,22 +350,13 @@ impl TryFrom<&wire::Episode> for Episode {
     type Error = Malformed;
 
     fn try_from(episode: &wire::Episode) -> Result<Self, Malformed> {
-        let cause = match wire::EndCause::try_from(episode.cause) {
-            Ok(wire::EndCause::Fell) => EndCause::Fell,
-            Ok(wire::EndCause::TimeLimit) => EndCause::TimeLimit,
-            Ok(wire::EndCause::NonFinite) => EndCause::NonFinite,
-            Ok(wire::EndCause::Terminated) => EndCause::Terminated,
-            _ => return Err(Malformed::field("episodes.cause", episode.cause, "1 to 4")),
-        };
-        Ok(Self {
-            return_sum: episode.return_sum,
-            length: episode.length,
-            distance_m: episode.distance_m,
-            velocity_mean_mps: episode.velocity_mean_mps,
-            cause,
-            ground_level: episode.ground_level,
-            command_factor: episode.command_factor,
-        })
+        let cause = CAUSES.iter().find(|(_, wire)| *wire as i32 == episode.cause).map(|(ours, _)| *ours);
+        let cause = cause.ok_or_else(|| Malformed::field("episodes.cause", episode.cause, "1 to 4"))?;
+        Ok(message!(
+            Self,
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_level, command_factor],
+            { cause: cause }
+        ))
     }
 }
 

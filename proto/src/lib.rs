@@ -23,6 +23,16 @@
 //!
 //! Received messages are hostile until checked: size first, then shape, then numbers.
 
+/// Builds a message from the fields that it shares with another, taken or cloned, and from others that are given.
+macro_rules! message {
+    ($($to:ident)::+, $from:ident [$($field:ident),*], { $($other:ident: $value:expr),* $(,)? }) => {
+        $($to)::+ { $($field: $from.$field,)* $($other: $value,)* }
+    };
+    ($($to:ident)::+, clone $from:ident [$($field:ident),*], { $($other:ident: $value:expr),* $(,)? }) => {
+        $($to)::+ { $($field: Clone::clone(&$from.$field),)* $($other: $value,)* }
+    };
+}
+
 pub mod actor_state;
 pub mod bundle;
 pub mod control;

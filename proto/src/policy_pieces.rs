@@ -34,8 +34,8 @@ impl PolicyRequest {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         wire::PolicyRequest {
-            known: self.known.map(Into::into),
-            announced: self.announced.map(Into::into),
+            known: self.known,
+            announced: self.announced,
             config_hash: self.config_hash,
             offset: self.offset,
         }
@@ -47,8 +47,8 @@ impl PolicyRequest {
         check_size(REQUEST, bytes.len(), SMALL_BYTES_MAX)?;
         let message = wire::PolicyRequest::decode(bytes).map_err(Malformed::undecodable(REQUEST))?;
         Ok(Self {
-            known: message.known.map(Into::into),
-            announced: message.announced.map(Into::into),
+            known: message.known,
+            announced: message.announced,
             config_hash: message.config_hash,
             offset: message.offset,
         })
@@ -94,7 +94,7 @@ impl PolicyPiece {
     pub fn encode(&self) -> Vec<u8> {
         wire::PolicyPiece {
             run: self.run.clone(),
-            version: Some(self.version.into()),
+            version: Some(self.version),
             total_bytes: self.total_bytes,
             offset: self.offset,
             data: self.data.clone(),

@@ -85,7 +85,7 @@ mod tests {
         Pose {
             run: "walk-1".into(),
             actor: "actor-0".into(),
-            version: Some(wire::PolicyVersion { incarnation: 3, number: 4, epoch: 5 }),
+            version: Some(crate::PolicyVersion { incarnation: 3, number: 4, epoch: 5 }),
             episode: 5,
             step: 6,
             time_s: 0.09,

@@ -62,7 +62,7 @@ impl Receipt {
         wire::Receipt {
             outcome: outcome.unwrap_or_default().into(),
             reason: self.reason.clone(),
-            version: Some(self.version.into()),
+            version: Some(self.version),
             durable_through: self.durable_through,
             fragment_steps: self.fragment_steps,
         }

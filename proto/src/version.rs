@@ -1,21 +1,8 @@
 //! Versions of a policy.
 
-use serde::{Deserialize, Serialize};
+use crate::Malformed;
 
-use crate::{Malformed, wire};
-
-/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation and gets a higher
-/// epoch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct PolicyVersion {
-    /// Learner process that made the policy.
-    pub incarnation: u64,
-    /// Updates since the run began.
-    pub number: u64,
-    /// Term of that learner; 0 if unknown. It is no part of a checkpoint.
-    #[serde(skip)]
-    pub epoch: u64,
-}
+pub use crate::wire::PolicyVersion;
 
 impl PolicyVersion {
     /// Version of an unknown epoch.
@@ -38,21 +25,9 @@ impl PolicyVersion {
     }
 }
 
-impl From<PolicyVersion> for wire::PolicyVersion {
-    fn from(version: PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
-    }
-}
-
-impl From<wire::PolicyVersion> for PolicyVersion {
-    fn from(version: wire::PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
-    }
-}
-
 /// Refuses a message without its version.
-pub(crate) fn required(version: Option<wire::PolicyVersion>) -> Result<PolicyVersion, Malformed> {
-    version.map(Into::into).ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
+pub(crate) fn required(version: Option<PolicyVersion>) -> Result<PolicyVersion, Malformed> {
+    version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
 }
 
 #[cfg(test)]

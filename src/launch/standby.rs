@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use treadmill_bus::{
     BusError,
-    observer::{is_any_actor_present, is_learner_present, statuses},
+    observer::{is_actor_present, is_learner_present, statuses},
 };
 use treadmill_learner::leadership::{
     LeadershipError, Manifest, Status,
     follower::{LeaderSight, LoadedState, Sight, StateFollower},
 };
-use treadmill_proto::wire;
+use treadmill_proto::PolicyVersion;
 use treadmill_runtime::{error_chain, numbers::thousands};
 use treadmill_store::{Store, StoreError};
 
@@ -150,7 +150,7 @@ impl Standby {
 /// Looks for the leader of this epoch and for actors.
 async fn look(host: &Host<'_>, run: &str, epoch: u64) -> Result<Sight, BusError> {
     // First, so that a link that comes back in between does not show actors beside a leader that was asked before.
-    let actors = is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await?;
+    let actors = is_actor_present(&host.bus, run, "*", TOKEN_TIMEOUT).await?;
     let has_token = is_learner_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let leader = match has_token {
         true => ask_leader(host, run, epoch).await?,
@@ -164,7 +164,7 @@ async fn ask_leader(host: &Host<'_>, run: &str, epoch: u64) -> Result<LeaderSigh
     // The bus may take longer than its own timeout while a link fails.
     let asked = tokio::time::timeout(2 * ANSWER_TIMEOUT, statuses(&host.bus, Some(run), ANSWER_TIMEOUT)).await;
     let replies = asked.unwrap_or(Ok(Vec::new()))?;
-    let of_leader = |version: Option<wire::PolicyVersion>| version.is_some_and(|version| version.epoch == epoch);
+    let of_leader = |version: Option<PolicyVersion>| version.is_some_and(|version| version.epoch == epoch);
     let status = replies.into_iter().filter_map(|reply| reply.status).find(|status| of_leader(status.version));
     Ok(match status {
         Some(status) if status.waits_for_storage => LeaderSight::Stalled,

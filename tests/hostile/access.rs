@@ -3,7 +3,7 @@
 use std::{
     fs,
     net::TcpStream,
-    path::{Path, PathBuf},
+    path::Path,
     process::Command,
     sync::{
         Arc,
@@ -12,8 +12,11 @@ use std::{
     time::Duration,
 };
 
-use crate::attacks::{Attacker, fragment};
-use crate::support::*;
+use crate::{
+    attacks::{Attacker, fragment},
+    floods::{self, Fleet},
+    support::*,
+};
 use treadmill_bus::Role;
 use treadmill_proto::Outcome;
 use zenoh::Wait;
@@ -22,12 +25,8 @@ use zenoh::Wait;
 const SILENCE: Duration = Duration::from_secs(2);
 
 /// Learner over TLS with one actor.
-struct Fleet {
-    learner: Running,
-    _actor: Running,
-    endpoint: String,
-    folder: tempfile::TempDir,
-    run: PathBuf,
+fn fleet() -> Fleet {
+    floods::fleet(true, &[])
 }
 
 fn actor(folder: &Path, endpoint: &str, certs: &str) -> Command {
@@ -36,37 +35,9 @@ fn actor(folder: &Path, endpoint: &str, certs: &str) -> Command {
     command
 }
 
-fn fleet() -> Fleet {
-    bus_on_one_thread();
-    let (folder, run) = folders();
-    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = endless(folder.path(), &run, "learner");
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    let learner = Running::start(command);
-    let endpoint = endpoint(&run);
-    let actor = Running::start(actor(folder.path(), &endpoint, "certs"));
-    await_steps(&run, 1024);
-    Fleet { learner, _actor: actor, endpoint, folder, run }
-}
-
-impl Fleet {
-    fn certs(&self) -> PathBuf {
-        self.folder.path().join("certs")
-    }
-
-    fn join_as(&self, role: &str) -> Attacker {
-        Attacker::join(&self.endpoint, "run", Some((&self.certs(), role)), TIMEOUT).expect("a session")
-    }
-
-    fn assert_trains(&self) {
-        let steps = metrics(&self.run).last().unwrap().1;
-        await_steps(&self.run, steps + 2048);
-    }
-}
-
 /// Subscribes and counts messages.
 fn listen(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
-    let count = Arc::new(AtomicU64::new(0));
+    let count = Arc::<AtomicU64>::default();
     let counted = count.clone();
     let count_one = move |_| {
         counted.fetch_add(1, Ordering::Relaxed);
@@ -126,9 +97,10 @@ fn an_actor_can_neither_forge_the_learners_messages_nor_read_those_of_other_acto
     let spied_metrics = listen(&spy, "treadmill/run/metrics/**");
     let poses = listen(&spy, "treadmill/run/poses/*");
     let poses_seen = listen(&observer, "treadmill/run/poses/*");
+    let copies_seen = listen(&observer, "treadmill/run/@rollouts/*");
     let statistics = listen(&spy, "treadmill/run/actors/*/stats");
-    await_that("an observer reads metrics, announcements and poses", || {
-        let all = [&metrics, &versions, &poses_seen];
+    await_that("an observer reads metrics, announcements, poses and copies of rollouts", || {
+        let all = [&metrics, &versions, &poses_seen, &copies_seen];
         all.iter().all(|count| count.load(Ordering::Relaxed) > 0).then_some(())
     });
     for _ in 0..20 {
@@ -224,11 +196,8 @@ fn a_renewed_certificate_is_accepted_and_a_certificate_for_another_host_is_not()
     fleet.join_as("actor").policy();
     // An actor does not trust a learner whose certificate names another host.
     assert!(run(folder, &["certs", "elsewhere", "--host", "learner.example"]).status.success());
-    let mut command = treadmill(folder);
     let other = folder.join("other");
-    command.args(["learner", "--preset", "smoke", "--steps", "4096", "--run-dir", other.to_str().unwrap()]);
-    command.args(["--listen", "tls/127.0.0.2:0", "--tls", "elsewhere"]);
-    let _elsewhere = Running::start(command);
+    let _elsewhere = start_endless(folder, &other, "learner", &["--listen", "tls/127.0.0.2:0", "--tls", "elsewhere"]);
     let stranger = Running::start(actor(folder, &endpoint(&other), "elsewhere"));
     stranger.wait_for("it is not for this name");
 }

@@ -5,7 +5,6 @@ use std::{
     io::Write,
     net::TcpStream,
     path::{Path, PathBuf},
-    process::Command,
     time::{Duration, Instant},
 };
 
@@ -18,11 +17,11 @@ const GROWTH_BYTES_MAX: u64 = 250 << 20;
 
 /// Learner with one good actor.
 pub(crate) struct Fleet {
-    learner: Running,
+    pub(crate) learner: Running,
     actor: Running,
     pub(crate) endpoint: String,
-    folder: tempfile::TempDir,
-    run: PathBuf,
+    pub(crate) folder: tempfile::TempDir,
+    pub(crate) run: PathBuf,
     tls: bool,
 }
 
@@ -31,37 +30,40 @@ pub(crate) fn fleet(tls: bool, settings: &[&str]) -> Fleet {
     // Clients of all tests together have more connections than most systems allow a program at first.
     rlimit::increase_nofile_limit(4096).expect("a limit on open files");
     let (folder, run) = folders();
-    let mut command = endless(folder.path(), &run, "learner");
-    for setting in settings {
-        command.args(["--set", setting]);
-    }
+    let listen: &[&str] = match tls {
+        true => &["--listen", "tls/127.0.0.1:0", "--tls", "certs"],
+        false => &["--listen", "tcp/127.0.0.1:0"],
+    };
     if tls {
-        assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-        command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    } else {
-        command.args(["--listen", "tcp/127.0.0.1:0"]);
+        certs(folder.path(), &["certs"]);
     }
-    let learner = Running::start(command);
+    let settings: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+    let learner = start_endless(folder.path(), &run, "learner", &[listen, &settings].concat());
     let endpoint = endpoint(&run);
-    let actor = Running::start(actor(folder.path(), &endpoint, tls, "good"));
+    let actor = actor(folder.path(), &endpoint, tls, "good");
     await_steps(&run, 1024);
     Fleet { learner, actor, endpoint, folder, run, tls }
 }
 
-fn actor(folder: &Path, endpoint: &str, tls: bool, name: &str) -> Command {
-    let mut command = treadmill(folder);
-    command.args(["actor", "--connect", endpoint, "--envs", "8", "--name", name]);
-    if tls {
-        command.args(["--tls", "certs"]);
-    }
-    command
+fn actor(folder: &Path, endpoint: &str, tls: bool, name: &str) -> Running {
+    let with_tls: &[&str] = if tls { &["--tls", "certs"] } else { &[] };
+    start(folder, &[&["actor", "--connect", endpoint, "--envs", "8", "--name", name], with_tls].concat())
 }
 
 impl Fleet {
     pub(crate) fn attacker(&self) -> Attacker {
-        let certs = self.folder.path().join("certs");
-        let tls = self.tls.then_some((certs.as_path(), "actor"));
+        self.join_as("actor")
+    }
+
+    /// Joins with the certificate of a role, if the fleet has certificates.
+    pub(crate) fn join_as(&self, role: &str) -> Attacker {
+        let certs = self.certs();
+        let tls = self.tls.then_some((certs.as_path(), role));
         Attacker::join(&self.endpoint, "run", tls, TIMEOUT).expect("a session")
+    }
+
+    pub(crate) fn certs(&self) -> PathBuf {
+        self.folder.path().join("certs")
     }
 
     fn value(&self, tag: &str) -> f64 {
@@ -222,7 +224,7 @@ fn flood(tls: bool) {
     // The learner drops statistics of unknown actors.
     assert!(fleet.value("actors/env_steps_per_s") < 1e12);
     // A new actor can still join.
-    let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
+    let newcomer = actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer");
     await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
     drop(newcomer);
     fleet.end();
@@ -250,7 +252,7 @@ fn silent_and_malformed_connections_do_not_keep_actors_out() {
             let byte = if number % 2 == 0 { 0xff } else { number as u8 };
             let _ = stream.write_all(&[byte; 4000]);
         }
-        let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
+        let newcomer = actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer");
         await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
         fleet.assert_trains();
         drop((idle, newcomer));

@@ -34,27 +34,24 @@ impl Fleet {
     }
 
     fn start_learner(&mut self) {
-        let mut command = treadmill(self.folder.path());
-        command.args(["learner", "--steps", ENDLESS, "--listen", &self.learner_at]);
         let run = self.run.to_str().unwrap();
-        match self.run.join("checkpoints/latest.bundle").exists() {
-            true => command.args(["--resume", run]),
-            false => command.args(["--preset", "smoke", "--run-dir", run]),
+        let begins: &[&str] = match self.run.join("checkpoints/latest.bundle").exists() {
+            true => &["--resume", run],
+            false => &["--preset", "smoke", "--run-dir", run],
         };
-        self.learner = Some(Running::start(command));
+        let args = ["learner", "--steps", ENDLESS, "--listen", &self.learner_at];
+        self.learner = Some(start(self.folder.path(), &[&args, begins].concat()));
     }
 
     fn start_router(&mut self) {
-        let mut command = treadmill(self.folder.path());
-        command.args(["router", "--listen", &self.router_at, "--connect", &self.learner_at]);
-        self.router = Some(Running::start(command));
+        self.router =
+            Some(start(self.folder.path(), &["router", "--listen", &self.router_at, "--connect", &self.learner_at]));
     }
 
     fn start_actors(&mut self) {
         for name in ["a", "b"] {
-            let mut command = treadmill(self.folder.path());
-            command.args(["actor", "--connect", &self.router_at, "--envs", "4", "--name", name, "--json"]);
-            self.actors.push(Running::start(command));
+            let args = ["actor", "--connect", &self.router_at, "--envs", "4", "--name", name, "--json"];
+            self.actors.push(start(self.folder.path(), &args));
         }
     }
 
@@ -66,9 +63,7 @@ impl Fleet {
 
     /// Stops all processes and compares their counts.
     fn compare(mut self) {
-        let learner = self.learner.take().unwrap();
-        learner.signal(libc::SIGINT);
-        assert!(learner.wait().0.success());
+        stop(self.learner.take().unwrap());
         let actors: Vec<Value> = self.actors.drain(..).map(stop_actor).collect();
         let accounts = accounts(&self.run);
         for actor in &actors {
@@ -117,35 +112,30 @@ fn compare_one(actor: &Value, account: &Value) {
     assert!(dropped <= sent("dropped_by_rule") + sent("in_flight"), "{both}");
 }
 
-#[test]
-fn actors_continue_after_a_frozen_learner() {
-    let fleet = Fleet::start();
-    let learner = fleet.learner.as_ref().unwrap();
-    learner.signal(libc::SIGSTOP);
+/// Starts a fleet, breaks it by `fail`, and asserts that its actors notice, and that it trains on once it is mended.
+fn assert_survives(fail: impl Fn(&mut Fleet), mend: impl Fn(&mut Fleet)) {
+    let mut fleet = Fleet::start();
+    fail(&mut fleet);
     fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
-    learner.signal(libc::SIGCONT);
+    mend(&mut fleet);
     fleet.assert_trains();
     fleet.compare();
+}
+
+#[test]
+fn actors_continue_after_a_frozen_learner() {
+    let signal = |fleet: &Fleet, signal| fleet.learner.as_ref().unwrap().signal(signal);
+    assert_survives(|fleet| signal(fleet, libc::SIGSTOP), |fleet| signal(fleet, libc::SIGCONT));
 }
 
 #[test]
 fn actors_continue_after_a_killed_router() {
-    let mut fleet = Fleet::start();
-    fleet.router = None;
-    fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
-    fleet.start_router();
-    fleet.assert_trains();
-    fleet.compare();
+    assert_survives(|fleet| fleet.router = None, Fleet::start_router);
 }
 
 #[test]
 fn actors_continue_after_a_killed_learner_behind_a_router() {
-    let mut fleet = Fleet::start();
-    fleet.learner = None;
-    fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
-    fleet.start_learner();
-    fleet.assert_trains();
-    fleet.compare();
+    assert_survives(|fleet| fleet.learner = None, Fleet::start_learner);
 }
 
 #[test]

@@ -1,10 +1,9 @@
 //! Other clients of the bus: receipts for their fragments, and subscriptions.
 
 use crate::{attacks::sample, support::*};
-use bytes::Bytes;
 use serde_json::Value;
-use treadmill_bus::{Bus, actor::submit, observer::observe};
-use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, fragment::TERMINATED};
+use treadmill_bus::{Bus, observer::observe};
+use treadmill_proto::{Fragment, Outcome, PolicyBundle, fragment::TERMINATED};
 
 /// Returns a whole batch of the preset `smoke`: 512 episodes of one step.
 pub fn batch(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
@@ -36,28 +35,19 @@ struct Fixture {
 
 fn start() -> Fixture {
     let (folder, run) = folders();
-    let training = Running::start(endless(folder.path(), &run, "train"));
+    let training = start_endless(folder.path(), &run, "train", &[]);
     let bus = join(&run);
     Fixture { training, bus, _folder: folder, run }
-}
-
-async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
-    let bytes = bytes.into();
-    loop {
-        if let Some(receipt) = submit(bus, "run", "stranger", bytes.clone(), TIMEOUT, |_| true).await.unwrap() {
-            return receipt;
-        }
-        tokio::task::yield_now().await;
-    }
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continues() {
     let fixture = start();
+    let send = |fragment: Vec<u8>| deliver(&fixture.bus, "stranger", fragment);
     let bundle = policy(&fixture.bus).await;
     let good = sample::fragment(&bundle, "stranger", 1);
 
-    let receipt = send(&fixture.bus, Fragment { run: "other".into(), ..good.clone() }.encode().unwrap()).await;
+    let receipt = send(Fragment { run: "other".into(), ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Malformed);
     assert!(receipt.reason.contains("`run` is `other`; expected `run`"), "{}", receipt.reason);
 
@@ -67,31 +57,30 @@ async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continue
         last_observations: vec![0.0; 46],
         ..good.clone()
     };
-    let receipt = send(&fixture.bus, wide.encode().unwrap()).await;
+    let receipt = send(wide.encode().unwrap()).await;
     assert!(receipt.reason.contains("`observation_size` is 46; expected 45"), "{}", receipt.reason);
 
     let mut torn = good.encode().unwrap();
     torn.truncate(torn.len() / 2);
-    assert_eq!(send(&fixture.bus, torn).await.outcome, Outcome::Malformed);
+    assert_eq!(send(torn).await.outcome, Outcome::Malformed);
 
     let vanished = treadmill_proto::PolicyVersion::new(99, 1);
-    let receipt = send(&fixture.bus, Fragment { version: vanished, ..good.clone() }.encode().unwrap()).await;
+    let receipt = send(Fragment { version: vanished, ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Vanished);
 
     // A valid fragment is accepted once.
     let fresh = policy(&fixture.bus).await;
     let valid = sample::fragment(&fresh, "stranger", 2).encode().unwrap();
-    let first = send(&fixture.bus, valid.clone()).await;
+    let first = send(valid.clone()).await;
     assert!(matches!(first.outcome, Outcome::Accepted | Outcome::TooOld), "{first:?}");
-    assert_eq!(send(&fixture.bus, valid).await.outcome, Outcome::Duplicate);
+    assert_eq!(send(valid).await.outcome, Outcome::Duplicate);
 
     await_that("the count of malformed fragments", || {
         last_value(&fixture.run, "bus/fragments_malformed").filter(|count| *count == 3.0)
     });
     let steps = metrics(&fixture.run).last().unwrap().1;
     await_steps(&fixture.run, steps + 2048);
-    fixture.training.signal(libc::SIGINT);
-    assert!(fixture.training.wait().0.success());
+    stop(fixture.training);
 }
 
 #[tokio::test(flavor = "multi_thread")]

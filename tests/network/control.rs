@@ -35,13 +35,10 @@ fn await_both_actors(folder: &Path) -> Value {
 fn a_command_reaches_the_run_whose_folder_was_given() {
     let (folder, first) = folders();
     let (folder, second) = (folder.path(), folder.path().join("second"));
-    let mut command = endless(folder, &first, "learner");
-    command.args(["--listen", "tcp/127.0.0.1:0"]);
-    let _first = Running::start(command);
-    let mut command = endless(folder, &second, "learner");
+    let _first = start_endless(folder, &first, "learner", &["--listen", "tcp/127.0.0.1:0"]);
     // On one bus with the first.
-    command.args(["--listen", "tcp/127.0.0.1:0", "--connect", &endpoint(&first)]);
-    let _second = Running::start(command);
+    let joined = ["--listen", "tcp/127.0.0.1:0", "--connect", &endpoint(&first)];
+    let _second = start_endless(folder, &second, "learner", &joined);
     let phase = |run: &str| last_json(&crate::support::run(folder, &["status", run, "--json"]))["phase"].clone();
     await_that("both runs at one endpoint", || {
         let both = crate::support::run(folder, &["status", "--connect", &endpoint(&second), "--json"]);
@@ -60,7 +57,7 @@ fn a_command_reaches_the_run_whose_folder_was_given() {
 fn a_run_can_be_paused_saved_changed_and_stopped() {
     let (folder, run) = folders();
     let folder = folder.path();
-    let training = Running::start(endless(folder, &run, "train"));
+    let training = start_endless(folder, &run, "train", &[]);
     await_steps(&run, 1024);
     // A run begins to learn before its second actor delivers.
     await_both_actors(folder);
@@ -115,16 +112,12 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
 fn a_change_leaves_the_goal_of_this_start() {
     let (folder, run) = folders();
     let folder = folder.path();
-    let mut command = endless(folder, &run, "train");
-    command.args(["--set", "eval.every_steps=600000000"]);
-    let training = Running::start(command);
+    let training = start_endless(folder, &run, "train", &["--set", "eval.every_steps=600000000"]);
     await_steps(&run, 512);
     done(folder, &["stop", "run"]);
     assert!(training.wait().0.success());
     // A goal before the first evaluation, so that this start evaluates nothing.
-    let mut command = treadmill(folder);
-    command.args(["train", "--resume", "run", "--steps", "500000000"]);
-    let training = Running::start(command);
+    let training = start(folder, &["train", "--resume", "run", "--steps", "500000000"]);
     await_that("a learner that answers", || {
         let asked = crate::support::run(folder, &["status", "run", "--json"]);
         (asked.status.success() && last_json(&asked)["phase"] == "training").then_some(())
@@ -142,9 +135,7 @@ fn an_observer_can_query_status_and_only_the_operator_can_send_commands() {
     let (folder, run) = folders();
     let folder = folder.path();
     assert!(crate::support::run(folder, &["certs", "certs"]).status.success());
-    let mut command = endless(folder, &run, "train");
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    let training = Running::start(command);
+    let training = start_endless(folder, &run, "train", &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     await_steps(&run, 512);
     // An observer's certificate under an operator's file names.
     let theirs = folder.join("theirs");

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusOptions, Role, learner::RolloutCopies, observer::observe};
+use treadmill_bus::{learner::RolloutCopies, observer::observe};
 use treadmill_proto::Fragment;
 
 /// Capacity of a subscriber that loses nothing on a slow machine.
@@ -11,7 +11,7 @@ const RING: usize = 65_536;
 #[test]
 fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
     let (folder, run) = folders();
-    let training = Running::start(endless(folder.path(), &run, "train"));
+    let training = start_endless(folder.path(), &run, "train", &[]);
     let bus = join(&run);
     let everything = observe(&bus, "treadmill/**", RING).unwrap();
     let copies = observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap();
@@ -24,8 +24,7 @@ fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
         assert_eq!(fragment.transitions(), 256);
     }
     assert!(bytes > 20 * 256 * 45 * 4);
-    training.signal(libc::SIGINT);
-    assert!(training.wait().0.success());
+    stop(training);
     let mut seen = 0;
     while let Some(message) = everything.next(std::time::Duration::ZERO) {
         assert!(!message.key.contains('@'), "{}", message.key);
@@ -35,37 +34,22 @@ fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
 }
 
 #[test]
-fn observers_can_read_the_copies_and_actors_cannot() {
-    let (folder, run) = folders();
-    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = endless(folder.path(), &run, "train");
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    let _training = Running::start(command);
-    let [actor, observer] = [Role::Actor, Role::Observer].map(|role| join_as(role, folder.path(), &run));
-    let [actors, observers] = [&actor, &observer].map(|bus| observe(bus, "treadmill/run/@rollouts/*", RING).unwrap());
-    for _ in 0..10 {
-        Fragment::decode(Bytes::from(observers.next(TIMEOUT).expect("a copy").payload)).unwrap();
-    }
-    assert_eq!(actors.next(std::time::Duration::ZERO), None);
-}
-
-#[test]
 fn copies_are_made_only_while_subscribed() {
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    let (router, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let (router, endpoints) = open_router(&[]);
     let copies = RolloutCopies::open(&router, "run").unwrap();
-    let client = Bus::open_client(&BusOptions { connect: endpoints, ..BusOptions::default() }).unwrap();
+    let watched = copies.watched();
+    let client = open_client(&endpoints);
     let _everything = observe(&client, "treadmill/**", 16).unwrap();
     let other = observe(&client, "treadmill/other-run/@rollouts/*", 16).unwrap();
-    assert!(!copies.is_watched());
+    assert!(!watched.now());
     let one = observe(&client, "treadmill/run/@rollouts/actor-1", 16).unwrap();
-    await_that("a subscriber", || copies.is_watched().then_some(()));
+    await_that("a subscriber", || watched.now().then_some(()));
     copies.offer("actor-2", Bytes::from_static(b"unwanted"));
     copies.offer("actor-1", Bytes::from_static(b"a fragment"));
     let message = one.next(TIMEOUT).expect("the copy");
     assert_eq!((&message.key[..], &message.payload[..]), ("treadmill/run/@rollouts/actor-1", &b"a fragment"[..]));
     drop(one);
-    await_that("no subscriber", || (!copies.is_watched()).then_some(()));
+    await_that("no subscriber", || (!watched.now()).then_some(()));
     // Unread copies do not pile up.
     for _ in 0..1000 {
         copies.offer("actor-1", Bytes::from(vec![0; 1 << 20]));

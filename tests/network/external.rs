@@ -1,6 +1,6 @@
 //! External tasks: actors register them, the learner trains them, other tasks are refused by name.
 
-use std::{fs, path::Path, process::Command};
+use std::{fs, path::Path};
 
 use crate::{bus::batch, support::*};
 use treadmill_bus::{Bus, Role, actor::register_task};
@@ -22,24 +22,17 @@ fn task() -> Task {
 }
 
 fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
-    let mut command: Command = treadmill(folder);
-    command.args(["learner", "--listen", "tcp/127.0.0.1:0"]).args(more);
+    let mut args = [&["learner", "--listen", "tcp/127.0.0.1:0"], more].concat();
     if !more.contains(&"--resume") {
         // One update for each fragment.
-        command.args(["--preset", "smoke", "--set", "learner.mode=sync", "--run-dir", run.to_str().unwrap()]);
+        args.extend(["--preset", "smoke", "--set", "learner.mode=sync", "--run-dir", run.to_str().unwrap()]);
     }
-    Running::start(command)
+    start(folder, &args)
 }
 
 async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
     let registration = TaskRegistration { run: "run".into(), actor: actor.into(), task: task.clone() };
-    loop {
-        // Without a reply, the client does not know the learner yet.
-        if let Some(receipt) = register_task(bus, &registration, TIMEOUT).await.unwrap() {
-            return receipt;
-        }
-        tokio::task::yield_now().await;
-    }
+    until_answered(|| register_task(bus, &registration, TIMEOUT)).await
 }
 
 /// Returns a whole batch with its episodes.
@@ -180,10 +173,8 @@ async fn a_humanoid_run_refuses_other_tasks_by_name() {
 async fn with_certificates_actors_can_register_tasks_and_observers_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command: Command = treadmill(folder.path());
-    command.args(["learner", "--listen", "tls/127.0.0.1:0", "--tls", "certs", "--task", "external"]);
-    command.args(["--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
+    let with_tls = ["--listen", "tls/127.0.0.1:0", "--tls", "certs", "--task", "external"];
+    let training = start_endless(folder.path(), &run, "learner", &with_tls);
     let join = |role| join_as(role, folder.path(), &run);
     let stranger = TaskRegistration {
         run: "run".into(),

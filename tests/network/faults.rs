@@ -8,9 +8,7 @@ use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
 
 fn actor(folder: &Path, endpoint: &str, name: &str) -> Running {
-    let mut command = treadmill(folder);
-    command.args(["actor", "--connect", endpoint, "--envs", "4", "--name", name]);
-    Running::start(command)
+    start(folder, &["actor", "--connect", endpoint, "--envs", "4", "--name", name])
 }
 
 /// Waits until another process has replaced the killed actor-0, then stops the training.
@@ -18,14 +16,13 @@ fn await_restart(training: Running, run: &Path, killed: u32) {
     await_that("another actor-0", || children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed));
     await_that("the count of restarts", || last_value(run, "actors/restarts").filter(|restarts| *restarts == 1.0));
     await_that("two actors", || last_value(run, "actors/alive").filter(|alive| *alive == 2.0));
-    training.signal(libc::SIGINT);
-    assert!(training.wait().0.success());
+    stop(training);
 }
 
 #[test]
 fn a_killed_actor_is_restarted_and_counted() {
     let (folder, run) = folders();
-    let training = Running::start(endless(folder.path(), &run, "train"));
+    let training = start_endless(folder.path(), &run, "train", &[]);
     await_steps(&run, 1024);
     let killed = children(training.pid(), "actor-0");
     assert_eq!(killed.len(), 1);
@@ -53,13 +50,10 @@ fn an_actor_is_restarted_after_the_program_was_replaced() {
 #[test]
 fn fragments_of_a_large_actor_fit_into_messages() {
     let (folder, run) = folders();
-    let mut learner = treadmill(folder.path());
-    learner.args(["learner", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/127.0.0.1:0"]);
-    let learner = Running::start(learner);
-    let mut large = treadmill(folder.path());
+    let learner = start(folder.path(), &["learner", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/127.0.0.1:0"]);
     // 128 steps, the horizon of 64 environments, would be 33 MB.
-    large.args(["actor", "--connect", &endpoint(&run), "--envs", "1000", "--name", "large"]);
-    let large = Running::start(large);
+    let large = ["actor", "--connect", &endpoint(&run), "--envs", "1000", "--name", "large"];
+    let large = start(folder.path(), &large);
     await_steps(&run, 30_000);
     assert!(is_running(large.pid()));
     drop((large, learner));
@@ -68,7 +62,7 @@ fn fragments_of_a_large_actor_fit_into_messages() {
 #[test]
 fn actors_of_a_killed_train_exit() {
     let (folder, run) = folders();
-    let training = Running::start(endless(folder.path(), &run, "train"));
+    let training = start_endless(folder.path(), &run, "train", &[]);
     await_steps(&run, 512);
     let orphans = children(training.pid(), "actor");
     assert_eq!(orphans.len(), 2);
@@ -84,9 +78,7 @@ fn an_actor_without_a_learner_warns_and_retries() {
     let waiting = actor(folder.path(), &endpoint, "early");
     waiting.wait_for(&endpoint);
     assert!(is_running(waiting.pid()));
-    let mut command = endless(folder.path(), &run, "learner");
-    command.args(["--listen", &endpoint]);
-    let learner = Running::start(command);
+    let learner = start_endless(folder.path(), &run, "learner", &["--listen", &endpoint]);
     await_steps(&run, 512);
     drop((learner, waiting));
 }
@@ -94,9 +86,7 @@ fn an_actor_without_a_learner_warns_and_retries() {
 #[test]
 fn a_killed_learner_is_resumed_while_its_actors_wait() {
     let (folder, run) = folders();
-    let mut command = endless(folder.path(), &run, "learner");
-    command.args(["--listen", "tcp/127.0.0.1:0"]);
-    let learner = Running::start(command);
+    let learner = start_endless(folder.path(), &run, "learner", &["--listen", "tcp/127.0.0.1:0"]);
     let endpoint = endpoint(&run);
     let actors = [actor(folder.path(), &endpoint, "a"), actor(folder.path(), &endpoint, "b")];
     await_steps(&run, 2048);
@@ -104,9 +94,10 @@ fn a_killed_learner_is_resumed_while_its_actors_wait() {
     learner.wait();
     let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
 
-    let mut command = treadmill(folder.path());
-    command.args(["learner", "--resume", run.to_str().unwrap(), "--steps", ENDLESS, "--listen", &endpoint]);
-    let learner = Running::start(command);
+    let learner = start(
+        folder.path(),
+        &["learner", "--resume", run.to_str().unwrap(), "--steps", ENDLESS, "--listen", &endpoint],
+    );
     await_steps(&run, saved.counters.env_steps + 4096);
     assert!(actors.iter().all(|actor| is_running(actor.pid())), "actors outlive the learner");
 
@@ -121,8 +112,7 @@ fn a_killed_learner_is_resumed_while_its_actors_wait() {
         assert!(stats.awaiting_durability <= 3, "a batch is two fragments: {stats:?}");
     }
     bus.close();
-    learner.signal(libc::SIGINT);
-    assert!(learner.wait().0.success());
+    stop(learner);
 
     let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert!(after.counters.env_steps >= saved.counters.env_steps + 4096);
@@ -176,17 +166,9 @@ fn a_failed_copy_of_a_checkpoint_ends_the_run_although_its_policy_was_announced(
 #[test]
 fn a_second_actor_of_the_same_name_is_refused_and_a_successor_is_not() {
     let (folder, run) = folders();
-    let mut learner = endless(folder.path(), &run, "learner");
-    let _learner = Running::start({
-        learner.args(["--listen", "tcp/127.0.0.1:0"]);
-        learner
-    });
+    let _learner = start_endless(folder.path(), &run, "learner", &["--listen", "tcp/127.0.0.1:0"]);
     let at = endpoint(&run);
-    let actor = || {
-        let mut command = treadmill(folder.path());
-        command.args(["actor", "--connect", &at, "--envs", "4", "--name", "twin"]);
-        Running::start(command)
-    };
+    let actor = || actor(folder.path(), &at, "twin");
     let first = actor();
     first.wait_for("joined run `run` as `twin` with 4 environments");
     await_that("the actor is alive", || last_value(&run, "actors/alive").filter(|alive| *alive == 1.0));
@@ -218,9 +200,7 @@ impl Drop for Thawed {
 #[test]
 fn a_token_that_routers_keep_of_a_killed_actor_is_no_obstacle() {
     let (folder, run) = folders();
-    let mut learner = endless(folder.path(), &run, "learner");
-    learner.args(["--listen", "tcp/127.0.0.1:0"]);
-    let _learner = Running::start(learner);
+    let _learner = start_endless(folder.path(), &run, "learner", &["--listen", "tcp/127.0.0.1:0"]);
     let endpoint = endpoint(&run);
     let bus = join(&run);
     // No actor with this name sends anything.
@@ -233,7 +213,7 @@ fn a_token_that_routers_keep_of_a_killed_actor_is_no_obstacle() {
 #[test]
 fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
-    let training = Running::start(endless(folder.path(), &run, "train"));
+    let training = start_endless(folder.path(), &run, "train", &[]);
     await_steps(&run, 1024);
     let frozen = Thawed(children(training.pid(), "actor-0")[0]);
     send_signal(frozen.0, libc::SIGSTOP);
@@ -242,7 +222,6 @@ fn a_frozen_actor_does_not_delay_the_others() {
     send_signal(frozen.0, libc::SIGCONT);
     let thawed = metrics(&run).last().unwrap().1;
     await_steps(&run, thawed + 10 * 512);
-    training.signal(libc::SIGINT);
-    assert!(training.wait().0.success());
+    stop(training);
     assert_eq!(last_value(&run, "bus/fragments_malformed"), Some(0.0));
 }

@@ -1,10 +1,10 @@
 //! Policies through routers: the learner sends each version once to a router, and all actors behind it get it.
 
-use std::{collections::BTreeMap, net::TcpListener, path::Path};
+use std::{collections::BTreeMap, path::Path};
 
 use bytes::Bytes;
 use treadmill_bus::{
-    Bus, BusOptions,
+    Bus,
     actor::{FetchedPolicy, fetch_newer_policy, fetch_policy},
     learner::{Alive, PolicyServer, PublishedPolicy, ServedPolicies},
 };
@@ -46,26 +46,10 @@ fn published(number: u64) -> PublishedPolicy {
     PublishedPolicy::new(&whole, &for_actors).unwrap()
 }
 
-fn free_endpoint() -> String {
-    format!("tcp/{}", TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap())
-}
-
-fn router(folder: &Path, listen: &str, connect: &str) -> Running {
-    let mut command = treadmill(folder);
-    command.args(["router", "--listen", listen, "--connect", connect]);
-    let router = Running::start(command);
+fn router(folder: &Path, listen: &str, connect: &str, more: &[&str]) -> Running {
+    let router = start(folder, &[&["router", "--listen", listen, "--connect", connect], more].concat());
     router.wait_for("listening");
     router
-}
-
-/// Joins as an actor does that names its run.
-async fn join_run(bus: &Bus) -> PolicyBundle {
-    loop {
-        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
-            return bundle;
-        }
-        tokio::task::yield_now().await;
-    }
 }
 
 /// Fetches the announced version `number` with every client at once, as actors do that have the version before.
@@ -77,13 +61,7 @@ async fn fetch_with_all(clients: &[Bus], number: u64) {
             let announced = Some(PolicyVersion::new(7, number));
             let known = Some(PolicyVersion::new(7, number - 1));
             let request = PolicyRequest { known, announced, config_hash: 9, offset: 0 };
-            // Without a reply, the client does not know its router again yet.
-            let fetched = loop {
-                if let Some(fetched) = fetch_newer_policy(&bus, "run", &request, TIMEOUT).await.unwrap() {
-                    break fetched;
-                }
-                tokio::task::yield_now().await;
-            };
+            let fetched = until_answered(|| fetch_newer_policy(&bus, "run", &request, TIMEOUT)).await;
             let [_, for_actors] = bundle(number);
             assert_eq!(fetched, FetchedPolicy::Newer(Box::new(for_actors.without_config())));
         });
@@ -101,17 +79,15 @@ fn sent_since(server: &PolicyServer, before: ServedPolicies) -> u64 {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_router_fetches_each_version_once_for_all_actors_behind_it() {
     let (folder, _) = folders();
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    let (learner, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let (learner, endpoints) = open_router(&[]);
     let server = PolicyServer::open(&learner, published(1)).unwrap();
     // The actors' router is behind another one.
-    let (outer_at, inner_at) = (free_endpoint(), free_endpoint());
-    let _outer = router(folder.path(), &outer_at, &endpoints[0]);
-    let inner = router(folder.path(), &inner_at, &outer_at);
-    let open = || Bus::open_client(&BusOptions { connect: vec![inner_at.clone()], ..BusOptions::default() }).unwrap();
-    let clients: Vec<Bus> = (0..CLIENTS).map(|_| open()).collect();
+    let [outer_at, inner_at] = free_endpoints("tcp");
+    let _outer = router(folder.path(), &outer_at, &endpoints[0], &[]);
+    let inner = router(folder.path(), &inner_at, &outer_at, &[]);
+    let clients: Vec<Bus> = (0..CLIENTS).map(|_| open_client(std::slice::from_ref(&inner_at))).collect();
     for client in &clients {
-        assert_eq!(join_run(client).await, bundle(1)[1], "with configuration and model, without the critic");
+        assert_eq!(policy(client).await, bundle(1)[1], "with configuration and model, without the critic");
     }
     for number in 2..6 {
         let before = server.served();
@@ -134,7 +110,7 @@ async fn a_router_fetches_each_version_once_for_all_actors_behind_it() {
     inner.signal(libc::SIGKILL);
     inner.wait();
     server.publish(published(6));
-    let inner = router(folder.path(), &inner_at, &outer_at);
+    let inner = router(folder.path(), &inner_at, &outer_at, &[]);
     fetch_with_all(&clients, 6).await;
     let before = server.served();
     server.publish(published(7));
@@ -147,20 +123,13 @@ async fn a_router_fetches_each_version_once_for_all_actors_behind_it() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn an_actor_of_the_learner_gets_a_version_once() {
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    let (learner, connect) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let (learner, connect) = open_router(&[]);
     let server = PolicyServer::open(&learner, published(1)).unwrap();
-    let client = Bus::open_client(&BusOptions { connect, ..BusOptions::default() }).unwrap();
-    assert_eq!(join_run(&client).await, bundle(1)[1]);
+    let client = open_client(&connect);
+    assert_eq!(policy(&client).await, bundle(1)[1]);
     assert_eq!(fetch_policy(&client, None, TIMEOUT).await.unwrap(), None, "no learner holds a token");
     let _token = Alive::watch(&learner, "run").unwrap();
-    let of_live_run = loop {
-        if let Some(bundle) = fetch_policy(&client, None, TIMEOUT).await.unwrap() {
-            break bundle;
-        }
-        tokio::task::yield_now().await;
-    };
-    assert_eq!(of_live_run, bundle(1)[1]);
+    assert_eq!(until_answered(|| fetch_policy(&client, None, TIMEOUT)).await, bundle(1)[1]);
     let before = server.served();
     server.publish(published(2));
     fetch_with_all(std::slice::from_ref(&client), 2).await;
@@ -181,18 +150,13 @@ fn assert_one_policy_per_version(tls: bool) {
     command.args(["--listen", &format!("{scheme}/127.0.0.1:0")]).args(with_tls);
     command.env("TREADMILL_LOG", "warn,zenoh=off,treadmill_bus=debug");
     let learner = Running::start(command);
-    let router_at = free_endpoint().replace("tcp", scheme);
-    let mut command = treadmill(folder.path());
-    command.args(["router", "--listen", &router_at, "--connect", &endpoint(&run)]).args(with_tls);
-    let router = Running::start(command);
-    router.wait_for("listening");
+    let [router_at] = free_endpoints(scheme);
+    let router = router(folder.path(), &router_at, &endpoint(&run), with_tls);
     let actors: Vec<Running> = (0..CLIENTS)
         .map(|number| {
-            let mut command = treadmill(folder.path());
             let name = format!("a{number}");
-            command.args(["actor", "--connect", &router_at, "--run", "run", "--envs", "2", "--name", &name]);
-            command.args(with_tls);
-            Running::start(command)
+            let args = ["actor", "--connect", &router_at, "--run", "run", "--envs", "2", "--name", &name];
+            start(folder.path(), &[&args, with_tls].concat())
         })
         .collect();
     await_that("all actors", || last_value(&run, "actors/alive").filter(|alive| *alive == CLIENTS as f64));
@@ -227,19 +191,14 @@ fn access_rules_let_a_router_answer_for_the_learner() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_router_to_which_a_learners_answers_do_not_come_starts_anew() {
     let (folder, _) = folders();
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    let (learner, connect) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let (learner, connect) = open_router(&[]);
     let _token = Alive::watch(&learner, "run").unwrap();
-    let router_at = free_endpoint();
-    let router = router(folder.path(), &router_at, &connect[0]);
-    let client = tokio::task::spawn_blocking({
-        let options = BusOptions { connect: vec![router_at], ..BusOptions::default() };
-        move || Bus::open_client(&options).unwrap()
-    });
-    let client = client.await.unwrap();
+    let [router_at] = free_endpoints("tcp");
+    let router = router(folder.path(), &router_at, &connect[0], &[]);
+    let client = tokio::task::spawn_blocking(move || open_client(&[router_at])).await.unwrap();
     let asking = tokio::spawn({
         let client = client.clone();
-        async move { join_run(&client).await }
+        async move { policy(&client).await }
     });
     let line = tokio::task::spawn_blocking(move || (router.wait_for("starting anew"), router));
     let (line, _router) = line.await.unwrap();

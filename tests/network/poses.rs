@@ -1,10 +1,8 @@
 //! Poses of an actor: made and sent only while an observer subscribes.
 
-use std::time::Duration;
-
 use crate::support::*;
 use treadmill_bus::{
-    Bus, BusOptions, Role,
+    Bus,
     actor::PosePublisher,
     observer::{Feed, Message, observe},
 };
@@ -26,12 +24,8 @@ fn next(feed: &Feed) -> Pose {
 #[test]
 fn observers_see_episodes_from_their_start() {
     let (folder, run) = folders();
-    let mut command = endless(folder.path(), &run, "learner");
-    command.args(["--listen", "tcp/127.0.0.1:0"]);
-    let _learner = Running::start(command);
-    let mut command = treadmill(folder.path());
-    command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "legs"]);
-    let _actor = Running::start(command);
+    let _learner = start_endless(folder.path(), &run, "learner", &["--listen", "tcp/127.0.0.1:0"]);
+    let _actor = start(folder.path(), &["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "legs"]);
     await_steps(&run, 4096);
     let bus = join(&run);
     let bundle = tokio::runtime::Runtime::new().unwrap().block_on(policy(&bus));
@@ -62,26 +56,9 @@ fn observers_see_episodes_from_their_start() {
 }
 
 #[test]
-fn observers_can_read_poses_and_actors_cannot() {
-    let (folder, run) = folders();
-    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = endless(folder.path(), &run, "train");
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs", "--actors", "1"]);
-    let _training = Running::start(command);
-    let [actor, observer] = [Role::Actor, Role::Observer].map(|role| join_as(role, folder.path(), &run));
-    let [actors, observers] = [&actor, &observer].map(|bus| observe(bus, "treadmill/run/poses/*", RING).unwrap());
-    for _ in 0..10 {
-        next(&observers);
-    }
-    assert_eq!(actors.next(Duration::ZERO), None);
-}
-
-#[test]
 fn an_actor_knows_whether_it_is_watched() {
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    let (router, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
-    let join = || Bus::open_client(&BusOptions { connect: endpoints.clone(), ..BusOptions::default() }).unwrap();
-    let (actor, viewer) = (join(), join());
+    let (router, endpoints) = open_router(&[]);
+    let (actor, viewer) = (open_client(&endpoints), open_client(&endpoints));
     let publisher = PosePublisher::open(&actor, "run", "legs").unwrap();
     let other = PosePublisher::open(&actor, "run", "arms").unwrap();
     let watched = publisher.watched();

@@ -31,9 +31,8 @@ pub fn get(address: &str, path: &str) -> Option<(u16, String)> {
 
 /// Starts a run with a metrics page, and returns the page's address.
 fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
-    let mut command = endless(folder, run, "train");
-    command.args(["--no-progress", "--prometheus", "127.0.0.1:0"]).args(more);
-    let training = Running::start(command);
+    let with_page = ["--no-progress", "--prometheus", "127.0.0.1:0"];
+    let training = start_endless(folder, run, "train", &[&with_page, more].concat());
     let line = training.wait_for("  metrics   ");
     let address = line.split("http://").nth(1).and_then(|rest| rest.strip_suffix("/metrics")).expect("an address");
     (training, address.to_string())

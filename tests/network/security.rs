@@ -1,29 +1,29 @@
 //! Links with certificates: a fleet trains over them, also through a router, and clients of another authority are refused.
 
-use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
+use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
 use treadmill_bus::Role;
 
 use crate::support::*;
 
-fn learner(folder: &Path, run: &Path) -> Command {
-    let mut command = endless(folder, run, "learner");
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    command
+fn learner(folder: &Path, run: &Path) -> Running {
+    start_endless(folder, run, "learner", &["--listen", "tls/127.0.0.1:0", "--tls", "certs"])
 }
 
 #[test]
 fn a_fleet_with_certificates_trains_through_a_router() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);
-    let learner = Running::start(learner(folder.path(), &run));
-    let mut command = treadmill(folder.path());
-    command.args(["router", "--listen", "tls/127.0.0.1:0", "--connect", &endpoint(&run), "--tls", "certs"]);
-    let router = Running::start(command);
+    let learner = learner(folder.path(), &run);
+    let router = start(
+        folder.path(),
+        &["router", "--listen", "tls/127.0.0.1:0", "--connect", &endpoint(&run), "--tls", "certs"],
+    );
     let listening = router.wait_for("listening");
-    let mut command = treadmill(folder.path());
-    command.args(["actor", "--envs", "4", "--tls", "certs", "--connect", listening.split_whitespace().last().unwrap()]);
-    let actor = Running::start(command);
+    let actor = start(
+        folder.path(),
+        &["actor", "--envs", "4", "--tls", "certs", "--connect", listening.split_whitespace().last().unwrap()],
+    );
     await_steps(&run, 2048);
     for part in [actor, router, learner] {
         part.signal(libc::SIGTERM);
@@ -38,9 +38,7 @@ fn an_encrypted_router_runs_on_one_core() {
     // Returns for every thread of the bus the number of its cores and its scheduling policy. Threads that read and
     // write links exist after the first link.
     let threads = |args: &[&str]| {
-        let mut command = treadmill(folder.path());
-        command.arg("router").args(args);
-        let router = Running::start(command);
+        let router = start(folder.path(), &[&["router"], args].concat());
         router.wait_for("listening");
         let tasks = fs::read_dir(format!("/proc/{}/task", router.pid())).unwrap().flatten();
         let of_the_bus = tasks.filter(|task| {
@@ -81,15 +79,12 @@ fn an_actor_of_another_authority_is_refused() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);
     certs(folder.path(), &["others"]);
-    let _learner = Running::start(learner(folder.path(), &run));
+    let _learner = learner(folder.path(), &run);
     let endpoint = endpoint(&run);
-    let mut command = treadmill(folder.path());
-    command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
-    let stranger = Running::start(command);
+    let stranger = start(folder.path(), &["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
     stranger.wait_for("it is of another authority");
-    let mut command = treadmill(folder.path());
-    command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
-    let _friend = Running::start(command);
+    let _friend =
+        start(folder.path(), &["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
     await_steps(&run, 2048);
     assert_eq!(last_value(&run, "actors/alive"), Some(1.0));
 }

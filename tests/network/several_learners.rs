@@ -5,13 +5,7 @@ use std::path::Path;
 use crate::{support::*, takeover};
 
 fn learner(folder: &Path, name: &str, more: &[&str]) -> Running {
-    Running::start(takeover::learner(folder, &format!("file://{}/store", folder.display()), name, more))
-}
-
-fn start(folder: &Path, args: &[&str]) -> Running {
-    let mut command = treadmill(folder);
-    command.args(args);
-    Running::start(command)
+    Running::start(takeover::learner(folder, &takeover::url_in(folder), name, more))
 }
 
 #[test]
@@ -79,8 +73,7 @@ fn of_learners_that_begin_a_run_at_the_same_time_one_leads_and_the_others_follow
         learner.wait_for("run `walk` is at");
         assert_eq!(last_step(&at.join(NAMES[index])), 0, "two learners train");
     }
-    let stop = run(at, &["control", "stop", NAMES[leading]]);
-    assert!(stop.status.success(), "{}", stderr(&stop));
+    takeover::stop_run(at, NAMES[leading]);
     for learner in learners {
         let (status, lines) = learner.wait();
         assert!(status.success(), "{lines:#?}");

@@ -15,9 +15,7 @@ fn assert_cause(folder: &Path, args: &[&str], parts: &[&str], flags: &str) {
 }
 
 fn learner(folder: &Path, flags: &[&str]) -> Running {
-    let mut command = treadmill(folder);
-    command.args(["learner", "--preset", "smoke", "--run-dir", "run", "--run", "walk"]).args(flags);
-    Running::start(command)
+    start(folder, &[&["learner", "--preset", "smoke", "--run-dir", "run", "--run", "walk"], flags].concat())
 }
 
 #[test]
@@ -34,9 +32,8 @@ fn a_closed_port_and_an_unknown_host_are_named() {
     let args = ["status", "--connect", "tcp/no-such-host.invalid:1", "--insecure"];
     assert_cause(folder, &args, &["the host of tcp/no-such-host.invalid:1 is unknown", "getent hosts"], flags);
     for client in ["actor", "evaluator"] {
-        let mut command = treadmill(folder);
-        command.args([client, "--run", "walk", "--connect", &format!("tcp/127.0.0.1:{port}")]);
-        let line = Running::start(command).wait_for("no answer; retrying");
+        let line = start(folder, &[client, "--run", "walk", "--connect", &format!("tcp/127.0.0.1:{port}")])
+            .wait_for("no answer; retrying");
         for part in ["cause=no process listens", "start the learner", "treadmill check --connect", " --run walk"] {
             assert!(line.contains(part), "`{part}` is missing in: {line}");
         }
@@ -72,14 +69,11 @@ fn other_certificates_and_plain_text_are_recognised() {
     let args = ["status", "--connect", &plain];
     assert_cause(folder, &args, &[&format!("{plain} speaks TLS"), &format!("dial {endpoint}")], &flags);
     // An actor learns the same.
-    let mut command = treadmill(folder);
-    command.args(["actor", "--connect", &endpoint, "--tls", "others"]);
-    Running::start(command).wait_for("it is of another authority");
+    start(folder, &["actor", "--connect", &endpoint, "--tls", "others"]).wait_for("it is of another authority");
     let certs = folder.join("certs").canonicalize().unwrap();
     for client in ["actor", "evaluator"] {
-        let mut command = treadmill(folder);
-        command.args([client, "--connect", &endpoint, "--tls", "certs", "--run", "wlak"]);
-        let line = Running::start(command).wait_for("no learner answers; retrying");
+        let line = start(folder, &[client, "--connect", &endpoint, "--tls", "certs", "--run", "wlak"])
+            .wait_for("no learner answers; retrying");
         assert!(line.contains("did you mean `walk`?") && line.contains(certs.to_str().unwrap()), "{line}");
     }
 }
@@ -95,13 +89,10 @@ fn a_misspelled_run_gets_the_nearest_name() {
         let args = [command, &["--connect", &endpoint, "--run", "wlak"]].concat();
         assert_cause(folder, &args, &["no learner trains a run `wlak`", "did you mean `walk`?"], &flags);
     }
-    let mut command = treadmill(folder);
-    command.args(["actor", "--connect", &endpoint, "--run", "wlak"]);
-    let line = Running::start(command).wait_for("no learner answers; retrying");
+    let line =
+        start(folder, &["actor", "--connect", &endpoint, "--run", "wlak"]).wait_for("no learner answers; retrying");
     assert!(line.contains("did you mean `walk`?"), "{line}");
-    let mut command = treadmill(folder);
-    command.args(["status", "--watch", "--connect", &endpoint, "--run", "wlak"]);
-    Running::start(command).wait_for("did you mean `walk`?");
+    start(folder, &["status", "--watch", "--connect", &endpoint, "--run", "wlak"]).wait_for("did you mean `walk`?");
 }
 
 #[test]
@@ -117,17 +108,13 @@ fn a_run_without_actors_says_how_to_start_one() {
 #[test]
 fn following_waits_for_a_run_and_ends_with_its_results() {
     let (folder, _) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["status", "run", "--watch"]);
-    let following = Running::start(command);
+    let following = start(folder.path(), &["status", "run", "--watch"]);
     following.wait_for("waiting: there is no run at `run`");
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", "run", "--no-progress"]);
-    let training = Running::start(command);
+    let training =
+        start(folder.path(), &["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", "run", "--no-progress"]);
     let line = following.wait_for("run `run` trains: ");
     assert!(line.chars().count() <= 160 && line.contains(" steps/s, actors: "), "{line}");
-    training.signal(libc::SIGTERM);
-    assert!(training.wait().0.success());
+    stop(training);
     following.wait_for("run `run` is stopped: no process trains it");
     assert!(following.wait().0.success());
 }

@@ -11,7 +11,7 @@ use treadmill_bus::{
     observer::{command, newest_of_each_run, statuses},
 };
 use treadmill_policy::{NetworkShape, actor_to_safetensors};
-use treadmill_proto::{Command, ControlRequest, Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus, wire};
+use treadmill_proto::{Command, ControlRequest, Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus};
 use treadmill_runtime::seeds;
 
 use crate::{policies, support::*};
@@ -47,7 +47,7 @@ async fn routers_that_join_after_a_learner_stepped_down_find_its_successor() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_learner_that_was_overtaken_hides_no_answer_of_its_successor() {
     let of_epoch = |epoch| {
-        let version = Some(wire::PolicyVersion { epoch, ..wire::PolicyVersion::default() });
+        let version = Some(PolicyVersion { epoch, ..PolicyVersion::default() });
         RunStatus { run: "run".to_string(), version, ..RunStatus::default() }
     };
     let (router, endpoints) = open_router(&[]);

@@ -24,11 +24,35 @@ pub fn learner(folder: &Path, url: &str, name: &str, more: &[&str]) -> Command {
     command
 }
 
+/// Returns the URL of a store in this folder.
+pub fn url_in(folder: &Path) -> String {
+    format!("file://{}/store", folder.display())
+}
+
+/// Ends a run by an operator's command.
+pub fn stop_run(folder: &Path, run: &str) {
+    let stopped = self::run(folder, &["control", "stop", run]);
+    assert!(stopped.status.success(), "{}", stderr(&stopped));
+}
+
+/// Completes the command of a leader that follows once it was overtaken.
+fn go_on(command: &mut Command) {
+    if !command.get_args().any(|flag| flag == "--standby") {
+        command.arg("--resume-or-start");
+    }
+}
+
 fn first_endpoint(process: &Running) -> String {
     process.wait_for("listening ").rsplit(' ').next().expect("a line has words").to_string()
 }
 
 impl Fleet {
+    /// Starts a fleet whose store is in its folder.
+    fn in_folder(prepare: fn(&mut Command)) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        Self::start(&url_in(folder.path()), folder, prepare)
+    }
+
     /// Starts the fleet; `prepare` completes the commands of the learners.
     fn start(url: &str, folder: tempfile::TempDir, prepare: fn(&mut Command)) -> Self {
         Self::start_with([url; 2], folder, prepare)
@@ -49,9 +73,8 @@ impl Fleet {
         prepare(&mut command);
         let standby = Running::start(command);
         let following = first_endpoint(&standby);
-        let mut command = treadmill(at);
-        command.args(["actor", "--envs", "8", "--name", "one", "--connect", &leading, "--connect", &following]);
-        let actor = Running::start(command);
+        let actor =
+            start(at, &["actor", "--envs", "8", "--name", "one", "--connect", &leading, "--connect", &following]);
         await_steps(&at.join("first"), 4096);
         standby.wait_for("run `walk` is at");
         Self { url: url.to_string(), folder, leading, leader, standby, actor }
@@ -82,17 +105,14 @@ fn newest_manifest(folder: &Path) -> Value {
 
 #[test]
 fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
-    let folder = tempfile::tempdir().unwrap();
-    let url = format!("file://{}/store", folder.path().display());
-    let fleet = Fleet::start(&url, folder, |_| {});
+    let fleet = Fleet::in_folder(|_| {});
     fleet.leader.signal(libc::SIGKILL);
     let resumed = fleet.await_takeover();
     // Metrics are written after the state is durable.
     let reached = last_step(&fleet.run("first"));
     assert!(resumed >= reached, "resumed at {resumed}, the first had logged {reached}");
     // An operator's stop ends the run, not only this learner.
-    let stop = run(fleet.folder.path(), &["control", "stop", "second"]);
-    assert!(stop.status.success(), "{}", stderr(&stop));
+    stop_run(fleet.folder.path(), "second");
     let (status, lines) = fleet.standby.wait();
     assert!(status.success(), "{lines:#?}");
     let manifest = newest_manifest(fleet.folder.path());
@@ -116,9 +136,7 @@ fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
 
 #[test]
 fn a_frozen_leader_steps_down_when_it_thaws() {
-    let folder = tempfile::tempdir().unwrap();
-    let url = format!("file://{}/store", folder.path().display());
-    let fleet = Fleet::start(&url, folder, |_| {});
+    let fleet = Fleet::in_folder(|_| {});
     fleet.leader.signal(libc::SIGSTOP);
     fleet.await_takeover();
     fleet.leader.signal(libc::SIGCONT);
@@ -132,13 +150,7 @@ fn a_frozen_leader_steps_down_when_it_thaws() {
 
 #[test]
 fn a_leader_that_was_overtaken_follows_with_a_new_session_and_ends_with_the_run() {
-    let folder = tempfile::tempdir().unwrap();
-    let url = format!("file://{}/store", folder.path().display());
-    let fleet = Fleet::start(&url, folder, |command| {
-        if !command.get_args().any(|flag| flag == "--standby") {
-            command.arg("--resume-or-start");
-        }
-    });
+    let fleet = Fleet::in_folder(go_on);
     fleet.leader.signal(libc::SIGSTOP);
     fleet.await_takeover();
     fleet.leader.signal(libc::SIGCONT);
@@ -150,8 +162,7 @@ fn a_leader_that_was_overtaken_follows_with_a_new_session_and_ends_with_the_run(
     await_that("the status by way of the first", || {
         run(at, &["status", "--connect", &endpoint, "--run", "walk"]).status.success().then_some(())
     });
-    let stop = run(at, &["control", "stop", "second"]);
-    assert!(stop.status.success(), "{}", stderr(&stop));
+    stop_run(at, "second");
     for learner in [fleet.standby, fleet.leader] {
         let (status, lines) = learner.wait();
         assert!(status.success(), "{lines:#?}");
@@ -176,11 +187,7 @@ fn a_standby_takes_over_from_a_leader_that_reaches_its_actors_but_not_the_store(
     std::os::unix::fs::symlink(&store, &mount).unwrap();
     // The leader has a path of its own to the same store.
     let urls = [&mount, &store].map(|path| format!("file://{}", path.display()));
-    let fleet = Fleet::start_with(urls.each_ref().map(String::as_str), folder, |command| {
-        if !command.get_args().any(|flag| flag == "--standby") {
-            command.arg("--resume-or-start");
-        }
-    });
+    let fleet = Fleet::start_with(urls.each_ref().map(String::as_str), folder, go_on);
     let away = fleet.folder.path().join("away");
     fs::write(&away, "").unwrap();
     exchange(&mount, &away);
@@ -196,9 +203,7 @@ fn a_standby_takes_over_from_a_leader_that_reaches_its_actors_but_not_the_store(
 
 #[test]
 fn a_store_that_fails_pauses_training_until_it_answers() {
-    let folder = tempfile::tempdir().unwrap();
-    let url = format!("file://{}/store", folder.path().display());
-    let fleet = Fleet::start(&url, folder, |_| {});
+    let fleet = Fleet::in_folder(|_| {});
     let endpoint = fleet.leading.clone();
     let (states, away) = (fleet.folder.path().join("store/states"), fleet.folder.path().join("away"));
     // A file in its place: nothing can be written below it, not even by root.
@@ -220,7 +225,7 @@ fn a_store_that_fails_pauses_training_until_it_answers() {
 #[test]
 fn a_run_in_a_store_is_begun_only_once() {
     let folder = tempfile::tempdir().unwrap();
-    let url = format!("file://{}/store", folder.path().display());
+    let url = url_in(folder.path());
     let train = |name: &str, steps: &str, more: &[&str]| {
         let fixed =
             ["train", "--preset", "smoke", "--actors", "1", "--store", &url, "--run-dir", name, "--steps", steps];
@@ -251,7 +256,7 @@ fn unusable_stores_are_refused_with_the_remedy() {
     assert_refused(&learner(&["--standby"]), 2, &["--store"]);
     assert_refused(&learner(&["--resume-or-start"]), 2, &["--run-dir DIR", "--store URL"]);
     assert_refused(&learner(&["--store", "file:///x", "--resume", "walk"]), 2, &["cannot be used with"]);
-    let url = format!("file://{}/store", folder.path().display());
+    let url = url_in(folder.path());
     let missing = run(folder.path(), &["eval", &url]);
     assert_refused(&missing, 2, &["holds no run", "treadmill learner --store"]);
     fs::create_dir_all(folder.path().join("store/manifest.json")).unwrap();

@@ -2,14 +2,13 @@
 
 use std::{
     path::Path,
-    process::Command,
     sync::{Arc, Mutex},
 };
 
 use crate::{attacks::Attacker, bus::batch, support::*};
 use toml::{Table, Value};
 use treadmill_bus::{
-    Bus, BusOptions,
+    Bus,
     learner::{Admission, RolloutCopies, RolloutIntake},
 };
 use treadmill_humanoid::PHYSICS_VERSION;
@@ -19,10 +18,8 @@ use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, WIRE_VERSION};
 const UNKNOWN_FIELD: [u8; 6] = [0xc2, 0x3e, 3, 1, 2, 3];
 
 fn learner(folder: &Path, run: &Path) -> Running {
-    let mut command: Command = treadmill(folder);
-    command.args(["learner", "--listen", "tcp/127.0.0.1:0", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
-    command.args(["--set", "learner.mode=sync"]);
-    Running::start(command)
+    let any = ["learner", "--listen", "tcp/127.0.0.1:0", "--preset", "smoke", "--set", "learner.mode=sync"];
+    start(folder, &[&any[..], &["--run-dir", run.to_str().unwrap()]].concat())
 }
 
 /// Returns the first policy of a run of this version.
@@ -66,8 +63,7 @@ struct NextLearner {
 
 impl NextLearner {
     fn open(bundle: Vec<u8>) -> Self {
-        let options = BusOptions { listen: vec!["tcp/127.0.0.1:0".to_string()], ..BusOptions::default() };
-        let (bus, endpoints) = Bus::open_router(&options).unwrap();
+        let (bus, endpoints) = open_router(&[]);
         let copies = RolloutCopies::open(&bus, "run").unwrap();
         let rollouts = RolloutIntake::open(&bus, "run", 4, Arc::new(Admission::new(8, 4)), &copies).unwrap();
         let client = Attacker::join(&endpoints[0], "run", None, TIMEOUT).unwrap();
@@ -112,8 +108,7 @@ async fn an_actor_delivers_to_a_learner_of_the_next_version() {
         assert_eq!((fragment.sequence, fragment.config_hash), (sequence, bundle.config_hash));
         assert_eq!((fragment.wire_version, fragment.physics_version), (WIRE_VERSION, PHYSICS_VERSION));
     }
-    actor.signal(libc::SIGINT);
-    assert!(actor.wait().0.success());
+    stop(actor);
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -4,6 +4,7 @@
 mod process;
 
 use std::{
+    fmt::Debug,
     fs,
     net::TcpListener,
     os::unix::fs::PermissionsExt,
@@ -48,15 +49,44 @@ pub fn treadmill(folder: &Path) -> Command {
     command
 }
 
-/// Sends an encoded fragment of the run `run` until a receipt comes.
-pub async fn deliver(bus: &Bus, actor: &str, fragment: Vec<u8>) -> Receipt {
-    let fragment = Bytes::from(fragment);
+/// Asks until an answer comes: without one, the client does not know the other side yet.
+pub async fn until_answered<T, E: Debug, F>(mut ask: impl FnMut() -> F) -> T
+where
+    F: Future<Output = Result<Option<T>, E>>,
+{
     loop {
-        if let Some(receipt) = submit(bus, "run", actor, fragment.clone(), TIMEOUT, |_| true).await.unwrap() {
-            return receipt;
+        if let Some(answer) = ask().await.unwrap() {
+            return answer;
         }
         tokio::task::yield_now().await;
     }
+}
+
+/// Sends an encoded fragment of the run `run` until a receipt comes.
+pub async fn deliver(bus: &Bus, actor: &str, fragment: impl Into<Bytes>) -> Receipt {
+    let fragment = fragment.into();
+    until_answered(|| submit(bus, "run", actor, fragment.clone(), TIMEOUT, |_| true)).await
+}
+
+/// Starts the binary under test in `folder`.
+pub fn start(folder: &Path, args: &[&str]) -> Running {
+    let mut command = treadmill(folder);
+    command.args(args);
+    Running::start(command)
+}
+
+/// Starts the command of [`endless`] with further arguments.
+pub fn start_endless(folder: &Path, run: &Path, command: &str, more: &[&str]) -> Running {
+    let mut command = endless(folder, run, command);
+    command.args(more);
+    Running::start(command)
+}
+
+/// Stops a process, and asserts that it succeeds.
+pub fn stop(process: Running) {
+    process.signal(libc::SIGINT);
+    let (status, lines) = process.wait();
+    assert!(status.success(), "{lines:#?}");
 }
 
 /// Trains a run of the preset `smoke` for 2048 steps.
@@ -148,9 +178,14 @@ pub fn open_router(connect: &[String]) -> (Bus, Vec<String>) {
     Bus::open_router(&BusOptions { listen, connect: connect.to_vec(), ..BusOptions::default() }).unwrap()
 }
 
+/// Opens a client's session that dials these endpoints.
+pub fn open_client(connect: &[String]) -> Bus {
+    Bus::open_client(&BusOptions { connect: connect.to_vec(), ..BusOptions::default() }).unwrap()
+}
+
 /// Joins the bus of a run.
 pub fn join(run: &Path) -> Bus {
-    Bus::open_client(&BusOptions { connect: vec![endpoint(run)], ..BusOptions::default() }).unwrap()
+    open_client(&[endpoint(run)])
 }
 
 /// Joins the bus of a run with the certificate of a role in `folder/certs`.
@@ -191,13 +226,7 @@ impl Drop for StatusServer {
 
 /// Waits for the newest policy of the run `run`.
 pub async fn policy(bus: &Bus) -> PolicyBundle {
-    loop {
-        // Without a reply, the client does not know the learner yet.
-        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
-            return bundle;
-        }
-        tokio::task::yield_now().await;
-    }
+    until_answered(|| fetch_policy(bus, Some("run"), TIMEOUT)).await
 }
 
 /// Returns standard output as text.

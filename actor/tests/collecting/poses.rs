@@ -106,7 +106,7 @@ fn a_pose_repeats_the_state_of_the_physics() {
     assert_eq!(last.reward_survive, 5.0);
     for pose in &poses {
         assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()).as_ref(), Ok(pose));
-        assert_eq!((pose.version, pose.config_hash), (Some(VERSION.into()), 5));
+        assert_eq!((pose.version, pose.config_hash), (Some(VERSION), 5));
     }
 }
 

@@ -260,7 +260,7 @@ impl PlayedActor {
             incarnation: self.run.incarnation,
             host: machine::host_name(),
             pid: std::process::id(),
-            version: Some(self.policies.current().version.into()),
+            version: Some(self.policies.current().version),
             envs: self.run.envs,
             env_steps,
             env_steps_per_s,

@@ -88,6 +88,16 @@ pub enum RunFolderError {
     },
 }
 
+/// Declares functions that return the path of a file or folder of the run.
+macro_rules! paths {
+    ($($what:literal $function:ident = $name:literal;)*) => {$(
+        #[doc = concat!("Returns the path of ", $what, ".")]
+        pub fn $function(&self) -> PathBuf {
+            self.root.join($name)
+        }
+    )*};
+}
+
 impl RunFolder {
     /// Creates the folder of a new run: `run_dir`, or `runs/PREFIX-N` with the first free N.
     pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
@@ -217,44 +227,15 @@ impl RunFolder {
         &self.name
     }
 
-    /// Returns the path of the checkpoints.
-    pub fn checkpoints(&self) -> PathBuf {
-        self.root.join("checkpoints")
-    }
-
-    /// Returns the path of the scalars, one per line.
-    pub fn metrics(&self) -> PathBuf {
-        self.root.join("metrics.jsonl")
-    }
-
-    /// Returns the path of the configuration as used.
-    pub fn config(&self) -> PathBuf {
-        self.root.join("config.toml")
-    }
-
-    /// Returns the path of the learning curve.
-    pub fn learning_curve(&self) -> PathBuf {
-        self.root.join("learning_curve.png")
-    }
-
-    /// Returns the path of the accounts of fragments, one line per actor process.
-    pub fn accounts(&self) -> PathBuf {
-        self.root.join("accounts.jsonl")
-    }
-
-    /// Returns the path of the lock, see [`crate::run_lock`].
-    pub fn lock(&self) -> PathBuf {
-        self.root.join("lock.json")
-    }
-
-    /// Returns the path of the URL of the store.
-    pub fn store(&self) -> PathBuf {
-        self.root.join("store.txt")
-    }
-
-    /// Returns the path of the learner's endpoint.
-    pub fn endpoint(&self) -> PathBuf {
-        self.root.join("endpoint.txt")
+    paths! {
+        "the checkpoints" checkpoints = "checkpoints";
+        "the scalars, one per line" metrics = "metrics.jsonl";
+        "the configuration as used" config = "config.toml";
+        "the learning curve" learning_curve = "learning_curve.png";
+        "the accounts of fragments, one line per actor process" accounts = "accounts.jsonl";
+        "the lock, see [`crate::run_lock`]" lock = "lock.json";
+        "the URL of the store" store = "store.txt";
+        "the learner's endpoint" endpoint = "endpoint.txt";
     }
 }
 

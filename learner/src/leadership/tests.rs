@@ -25,6 +25,21 @@ fn lead(store: &Store) -> Leadership {
     Leadership::simulated(store, read_manifest(store).unwrap().as_ref(), seeds::unique())
 }
 
+/// Returns a store in memory with the objects in it, and a learner that has begun a run there.
+fn begun() -> (SimulatedObjects, Store, Leadership) {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    (objects, store, leader)
+}
+
+/// Returns a clock that shows so many milliseconds since now.
+fn clock() -> impl Fn(u64) -> Instant {
+    let begun = Instant::now();
+    move |ms| begun + Duration::from_millis(ms)
+}
+
 /// The same with the thread that removes old states.
 fn prepare(store: &Store) -> Leadership {
     Leadership::prepare(store, read_manifest(store).unwrap().as_ref()).unwrap()
@@ -36,9 +51,7 @@ fn manifest(store: &Store) -> Manifest {
 
 #[test]
 fn an_overtaken_leader_cannot_save_any_more() {
-    let store = Store::simulated(&SimulatedObjects::default());
-    let mut first = lead(&store);
-    first.save("walk", &counters(0), b"zero").unwrap();
+    let (_, store, mut first) = begun();
     first.save("walk", &counters(1), b"one").unwrap();
     let mut second = lead(&store);
     first.save("walk", &counters(2), b"two").unwrap();
@@ -57,10 +70,7 @@ fn an_overtaken_leader_cannot_save_any_more() {
 
 #[test]
 fn a_save_whose_answer_was_lost_counts_once() {
-    let objects = SimulatedObjects::default();
-    let store = Store::simulated(&objects);
-    let mut leader = lead(&store);
-    leader.save("walk", &counters(0), b"zero").unwrap();
+    let (objects, store, mut leader) = begun();
     // The state arrives, the manifest too, and only its answer is lost.
     objects.set_faults([None, Some(Fault::AnswerLost)]);
     leader.save("walk", &counters(1), b"one").unwrap();
@@ -80,10 +90,7 @@ fn a_save_whose_answer_was_lost_counts_once() {
 
 #[test]
 fn a_store_that_is_down_is_no_loss_of_leadership() {
-    let objects = SimulatedObjects::default();
-    let store = Store::simulated(&objects);
-    let mut leader = lead(&store);
-    leader.save("walk", &counters(0), b"zero").unwrap();
+    let (objects, store, mut leader) = begun();
     objects.set_down(true);
     assert!(matches!(leader.save("walk", &counters(1), b"one"), Err(LeadershipError::Store(_))));
     objects.set_down(false);
@@ -112,8 +119,7 @@ fn old_states_are_removed() {
 #[test]
 fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     let store = Store::simulated(&SimulatedObjects::default());
-    let (mut follower, begun) = (StateFollower::new(&store), Instant::now());
-    let at = |ms: u64| begun + Duration::from_millis(ms);
+    let (mut follower, at) = (StateFollower::new(&store), clock());
     follower.refresh(at(0)).unwrap();
     assert!(follower.loaded().is_none() && !follower.is_due(GONE, at(9000)), "there is no run yet");
     let mut leader = lead(&store);
@@ -142,12 +148,8 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
 
 #[test]
 fn a_follower_takes_over_from_a_leader_that_cannot_save() {
-    let objects = SimulatedObjects::default();
-    let store = Store::simulated(&objects);
-    let (mut leader, mut follower) = (lead(&store), StateFollower::new(&store));
-    leader.save("walk", &counters(0), b"zero").unwrap();
-    let begun = Instant::now();
-    let at = |ms: u64| begun + Duration::from_millis(ms);
+    let (objects, store, mut leader) = begun();
+    let (mut follower, at) = (StateFollower::new(&store), clock());
     let (answers, stalled) =
         (Sight { leader: LeaderSight::Answers, ..GONE }, Sight { leader: LeaderSight::Stalled, ..GONE });
     follower.refresh(at(0)).unwrap();
@@ -165,11 +167,8 @@ fn a_follower_takes_over_from_a_leader_that_cannot_save() {
 
 #[test]
 fn a_follower_forgets_what_it_saw_before_it_was_cut_off() {
-    let objects = SimulatedObjects::default();
-    let store = Store::simulated(&objects);
-    lead(&store).save("walk", &counters(0), b"zero").unwrap();
-    let (mut follower, begun) = (StateFollower::new(&store), Instant::now());
-    let at = |ms: u64| begun + Duration::from_millis(ms);
+    let (objects, store, _) = begun();
+    let (mut follower, at) = (StateFollower::new(&store), clock());
     follower.refresh(at(0)).unwrap();
     let (answers, silent) =
         (Sight { leader: LeaderSight::Answers, ..GONE }, Sight { leader: LeaderSight::Silent, ..GONE });
@@ -200,9 +199,7 @@ fn a_state_that_is_written_again_is_read_again() {
 
 #[test]
 fn a_state_that_stays_missing_is_an_error() {
-    let store = Store::simulated(&SimulatedObjects::default());
-    let mut leader = lead(&store);
-    leader.save("walk", &counters(0), b"zero").unwrap();
+    let (_, store, mut leader) = begun();
     store.delete(&manifest(&store).state).unwrap();
     let mut follower = StateFollower::new(&store);
     follower.refresh(Instant::now()).unwrap();
@@ -216,10 +213,7 @@ fn a_state_that_stays_missing_is_an_error() {
 
 #[test]
 fn the_end_is_written_once_the_store_answers_again() {
-    let objects = SimulatedObjects::default();
-    let store = Store::simulated(&objects);
-    let mut leader = lead(&store);
-    leader.save("walk", &counters(0), b"zero").unwrap();
+    let (objects, store, mut leader) = begun();
     // The write and the look at the manifest after it.
     objects.set_faults([Some(Fault::Lost); 2]);
     assert!(matches!(leader.end(Status::Released, Duration::ZERO), Err(LeadershipError::Store(_))));
@@ -230,9 +224,7 @@ fn the_end_is_written_once_the_store_answers_again() {
 
 #[test]
 fn a_learner_that_was_overtaken_finds_out() {
-    let store = Store::simulated(&SimulatedObjects::default());
-    let mut first = lead(&store);
-    first.save("walk", &counters(0), b"zero").unwrap();
+    let (_, store, first) = begun();
     first.confirm().unwrap();
     lead(&store).save("walk", &counters(0), b"zero").unwrap();
     assert!(matches!(first.confirm(), Err(LeadershipError::Overtaken { .. })));
@@ -268,8 +260,7 @@ fn the_end_of_a_leadership_decides_what_follows() {
 
 #[test]
 fn a_damaged_manifest_is_refused_with_its_field() {
-    let store = Store::simulated(&SimulatedObjects::default());
-    lead(&store).save("walk", &counters(0), b"zero").unwrap();
+    let (_, store, _) = begun();
     let sound = String::from_utf8(store.get(MANIFEST).unwrap().0).unwrap();
     for (from, to, wanted) in [
         ("\"format\": 1", "\"format\": 2", "`format` is 2"),

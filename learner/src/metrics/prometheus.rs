@@ -122,7 +122,7 @@ mod tests {
     const NEWEST: PolicyVersion = PolicyVersion::new(7, 12);
 
     fn stats(number: u64, incarnation: u64) -> ActorStats {
-        let version = Some(PolicyVersion::new(incarnation, number).into());
+        let version = Some(PolicyVersion::new(incarnation, number));
         ActorStats { version, env_steps_per_s: 1500.5, envs: 8, ..Default::default() }
     }
 

@@ -17,7 +17,7 @@ pub(super) fn first(state: &TrainingState, config: &Config) -> RunStatus {
     RunStatus {
         run: state.run.clone(),
         phase: Phase::Training.into(),
-        version: Some(state.lineage.newest().into()),
+        version: Some(state.lineage.newest()),
         host: machine::host_name(),
         pid: std::process::id(),
         program_version: env!("CARGO_PKG_VERSION").to_string(),

@@ -201,14 +201,11 @@ fn cases() -> impl Strategy<Value = Case> {
         Case {
             fleet: FleetSettings {
                 seed,
-                step_ms,
-                envs: 1,
-                steps: 1,
                 pinned_steps: 1,
                 in_flight,
                 loss_percent,
                 delay_ms,
-                forgets_accepted: false,
+                ..throughput::fleet(&step_ms, 1)
             },
             mode: if is_sync { LearnerMode::Sync } else { LearnerMode::Async },
             max_policy_lag,

@@ -11,7 +11,7 @@ pub fn as_json(runs: &[RunStatus]) -> String {
 }
 
 fn json_of(run: &RunStatus) -> serde_json::Value {
-    let version = |version: Option<treadmill_proto::wire::PolicyVersion>| version.map(|version| version.number);
+    let version = |version: Option<treadmill_proto::PolicyVersion>| version.map(|version| version.number);
     let actors: Vec<_> = run
         .actors
         .iter()

@@ -5,7 +5,7 @@ use treadmill_proto::{ActorStats, ActorStatus, Phase, PolicyVersion, RunStatus};
 
 /// Returns a run halfway through, with this many actors.
 pub fn run(name: &str, actors: usize) -> RunStatus {
-    let version = |number| Some(PolicyVersion::new(7, number).into());
+    let version = |number| Some(PolicyVersion::new(7, number));
     let actors = (0..actors).map(|number| ActorStatus {
         name: format!("actor-{number}"),
         alive: number != 2,
@@ -79,7 +79,7 @@ prop_compose! {
             time_unix_s: floats[0],
             run, phase, pid, host, program_version, actors, alarms,
             used_share: known.then_some(floats[8]), idle_share: known.then_some(floats[9]), undone_updates: counts[13],
-            version: known.then_some(PolicyVersion::new(counts[0], counts[1]).into()),
+            version: known.then_some(PolicyVersion::new(counts[0], counts[1])),
             env_steps: counts[2], env_steps_wanted: counts[3], updates: counts[4],
             wall_s: floats[0], env_steps_per_s: floats[1], since_update_s: floats[2], policy_lag_mean: floats[3],
             return_mean: known.then_some(floats[4]), length_mean: known.then_some(floats[5]),
@@ -101,7 +101,7 @@ prop_compose! {
     ) -> ActorStatus {
         let stats = ActorStats {
             actor: name.clone(), host, program_version, envs, env_steps_per_s: speed,
-            version: known.then_some(PolicyVersion::new(1, number).into()),
+            version: known.then_some(PolicyVersion::new(1, number)),
             dropped_by_rule: number, resent: lag, resident_bytes: lag, ..ActorStats::default()
         };
         ActorStatus {

@@ -7,13 +7,9 @@ use std::{
 };
 
 use treadmill_proto::{Command, ControlReply, ControlRequest, RunStatus};
-use zenoh::{
-    bytes::ZBytes,
-    qos::{CongestionControl, Priority},
-    query::{ConsolidationMode, Query},
-};
+use zenoh::{bytes::ZBytes, qos::Priority, query::Query};
 
-use super::shared::{reply_on, serve};
+use super::shared::{self, next_valid, reply_on, serve};
 use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Last part of the key of commands.
@@ -120,24 +116,10 @@ async fn ask(
     request: &ControlRequest,
     timeout: Duration,
 ) -> Result<Vec<ControlReply>, BusError> {
-    let replies = bus
-        .session
-        .get(key)
-        .payload(request.to_bytes())
-        .timeout(timeout)
-        // By default, Zenoh keeps only one of the learners' answers.
-        .consolidation(ConsolidationMode::None)
-        .priority(Priority::InteractiveHigh)
-        .congestion_control(CongestionControl::Block)
-        .await
-        .map_err(BusError::flow("asking the learner"))?;
+    let replies = shared::ask(bus, key, request.to_bytes(), timeout, Priority::InteractiveHigh, "asking the learner")?;
     let mut valid = Vec::new();
-    while let Ok(reply) = replies.recv_async().await {
-        let Ok(sample) = reply.result() else { continue };
-        match ControlReply::decode_checked(&sample.payload().to_bytes()) {
-            Ok(reply) => valid.push(reply),
-            Err(error) => tracing::warn!(what = "control reply", %error, "reply rejected"),
-        }
+    while let Some(reply) = next_valid(&replies, "control reply", |bytes| ControlReply::decode_checked(&bytes)).await {
+        valid.push(reply);
     }
     Ok(valid)
 }

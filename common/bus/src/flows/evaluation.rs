@@ -10,12 +10,9 @@ use std::{
 
 use bytes::Bytes;
 use treadmill_proto::{EvaluationReport, PolicyBundle, PolicyVersion, ident::check_ident};
-use zenoh::{
-    qos::{CongestionControl, Priority},
-    query::{ConsolidationMode, Query},
-};
+use zenoh::{qos::Priority, query::Query};
 
-use super::shared::{last_part, next_valid, reply, serve, start_thread};
+use super::shared::{ask, last_part, next_valid, reply, serve, start_thread};
 use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
@@ -135,16 +132,9 @@ pub async fn ask_for_evaluation(
     report: Option<&EvaluationReport>,
     timeout: Duration,
 ) -> Result<Assignment, BusError> {
-    let replies = bus
-        .session
-        .get(key(run, evaluator))
-        .payload(report.map_or_else(Vec::new, EvaluationReport::encode))
-        .timeout(timeout)
-        .consolidation(ConsolidationMode::None)
-        .priority(Priority::DataLow)
-        .congestion_control(CongestionControl::Block)
-        .await
-        .map_err(BusError::flow("asking for a policy to evaluate"))?;
+    let report = report.map_or_else(Vec::new, EvaluationReport::encode);
+    let what = "asking for a policy to evaluate";
+    let replies = ask(bus, key(run, evaluator), report, timeout, Priority::DataLow, what)?;
     let decode = |payload: Bytes| match payload.is_empty() {
         true => Ok(Assignment::Nothing),
         false => PolicyBundle::decode(payload).map(|bundle| Assignment::Evaluate(Box::new(bundle))),

@@ -65,7 +65,7 @@ pub mod observer {
         control::{command, newest_of_each_run, statuses},
         metrics::MetricsFeed,
         poses::watch_poses,
-        presence::{is_any_actor_present, is_learner_present, live_runs},
+        presence::{is_actor_present, is_learner_present, live_runs},
         subscription::{Feed, Message, observe},
     };
 }

@@ -55,7 +55,7 @@ pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use
         .map_err(BusError::flow("declaring the actor's token"))
 }
 
-/// Returns whether an actor of this name holds a token now.
+/// Returns whether an actor of this name holds a token now; `*` stands for any actor.
 ///
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as no.
@@ -80,14 +80,6 @@ async fn is_present(bus: &Bus, key: String, timeout: Duration) -> Result<bool, B
 /// If the bus fails. No answer within `timeout` counts as no.
 pub async fn is_learner_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
     is_present(bus, learner_key(run), timeout).await
-}
-
-/// Returns whether any actor of this run holds a token now.
-///
-/// # Errors
-/// If the bus fails. No answer within `timeout` counts as no.
-pub async fn is_any_actor_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
-    is_present(bus, actor_key(run, "*"), timeout).await
 }
 
 /// Returns the names of the runs whose learners hold tokens now, in order.

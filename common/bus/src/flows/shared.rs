@@ -1,5 +1,7 @@
 //! Parts that flows share: threads, queryables, replies and small publications.
 
+use std::time::Duration;
+
 use bytes::Bytes;
 use treadmill_proto::Malformed;
 use zenoh::{
@@ -7,7 +9,7 @@ use zenoh::{
     bytes::ZBytes,
     handlers::FifoChannelHandler,
     qos::{CongestionControl, Priority},
-    query::{Query, Reply},
+    query::{ConsolidationMode, Query, Reply},
 };
 
 use crate::{error::BusError, session::Bus, workarounds::kept_queryables::declare_queryable};
@@ -30,6 +32,27 @@ pub(super) fn serve(
     declare_queryable(&bus.session, key, callback).map_err(BusError::flow(what))
 }
 
+/// Sends a query. Its replies come as they arrive: by default, Zenoh holds the reply of one learner until all have answered,
+/// and keeps only one, and a learner that was overtaken may be silent. `what` names the operation in errors.
+pub(super) fn ask(
+    bus: &Bus,
+    key: String,
+    payload: impl Into<ZBytes>,
+    timeout: Duration,
+    priority: Priority,
+    what: &str,
+) -> Result<FifoChannelHandler<Reply>, BusError> {
+    bus.session
+        .get(key)
+        .payload(payload)
+        .timeout(timeout)
+        .consolidation(ConsolidationMode::None)
+        .priority(priority)
+        .congestion_control(CongestionControl::Block)
+        .wait()
+        .map_err(BusError::flow(what))
+}
+
 /// Answers a query on its own key; logs a failure as `what`.
 pub(super) fn reply(query: &Query, payload: impl Into<ZBytes>, what: &'static str) {
     reply_on(query, query.key_expr().as_str(), payload, what);
@@ -43,9 +66,6 @@ pub(super) fn reply_on(query: &Query, key: &str, payload: impl Into<ZBytes>, wha
 }
 
 /// Returns the next valid reply to a query, or `None` if none came in time. Logs invalid replies as `what`.
-///
-/// The query must ask for replies as they come. By default, Zenoh holds the reply of one learner until all have
-/// answered, and a learner that was overtaken may be silent.
 pub(super) async fn next_valid<T>(
     replies: &FifoChannelHandler<Reply>,
     what: &'static str,

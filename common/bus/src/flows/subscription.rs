@@ -39,6 +39,11 @@ impl Feed {
         self.ring.try_recv().ok().flatten().map(Message::from)
     }
 
+    /// Waits for the next message. `None` if the session is closed.
+    pub(super) async fn arrival(&self) -> Option<Message> {
+        self.ring.recv_async().await.ok().map(Message::from)
+    }
+
     /// Returns the next message, or `None` if none comes within `timeout`.
     pub fn next(&self, timeout: Duration) -> Option<Message> {
         self.ring.recv_timeout(timeout).ok().flatten().map(Message::from)

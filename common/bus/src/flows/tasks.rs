@@ -6,12 +6,9 @@ use std::{
 };
 
 use treadmill_proto::{Malformed, Task, TaskReceipt, TaskRegistration, ident::check_ident, limits::TASK_BYTES_MAX};
-use zenoh::{
-    bytes::ZBytes,
-    query::{ConsolidationMode, Query},
-};
+use zenoh::{bytes::ZBytes, qos::Priority, query::Query};
 
-use super::shared::{last_part, next_valid, reply, serve, start_thread};
+use super::shared::{ask, last_part, next_valid, reply, serve, start_thread};
 use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
@@ -122,13 +119,7 @@ pub async fn register_task(
     let payload = registration
         .encode()
         .map_err(|error| BusError::Flow { what: "registering a task".to_string(), why: error.to_string() })?;
-    let replies = bus
-        .session
-        .get(key(&registration.run, &registration.actor))
-        .payload(payload)
-        .timeout(timeout)
-        .consolidation(ConsolidationMode::None)
-        .await
-        .map_err(BusError::flow("registering a task"))?;
+    let key = key(&registration.run, &registration.actor);
+    let replies = ask(bus, key, payload, timeout, Priority::Data, "registering a task")?;
     Ok(next_valid(&replies, "task receipt", |payload| TaskReceipt::decode_checked(&payload)).await)
 }

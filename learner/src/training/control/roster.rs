@@ -6,7 +6,7 @@ use std::{
 };
 
 use treadmill_bus::learner::{AliveView, StatsFeed};
-use treadmill_proto::{ActorStats, ActorStatus, wire::PolicyVersion};
+use treadmill_proto::{ActorStats, ActorStatus, PolicyVersion};
 
 /// An actor that has left stays in the status for this long.
 const KEPT: Duration = Duration::from_secs(60);

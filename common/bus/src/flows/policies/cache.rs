@@ -320,7 +320,7 @@ impl<W> CachedRun<W> {
     }
 
     fn version(&self) -> Option<PolicyVersion> {
-        self.cached.as_ref().map(|cached| cached.policy.version())
+        self.cached.as_ref().map(|cached| cached.policy.version)
     }
 
     fn has(&self, version: PolicyVersion) -> bool {
@@ -335,7 +335,7 @@ impl<W> CachedRun<W> {
 
     /// Returns whether the cached policy is the newest, as far as this router and the requester have heard.
     fn is_newest(&self, cached: &CachedPolicy, request: &PolicyRequest, now: Instant) -> bool {
-        let version = cached.policy.version();
+        let version = cached.policy.version;
         let announced = self.announced.map(|announced| announced.version);
         let is_fresh = self.checked.is_some_and(|checked| now.duration_since(checked) < FRESH);
         let has = |other: PolicyVersion| other.names_same_policy(version) || other.is_before(version);
@@ -351,9 +351,9 @@ impl<W> CachedRun<W> {
         (self.fetches, self.is_announcement_new) = (1, false);
         let request = match &self.cached {
             Some(CachedPolicy { policy, .. }) => PolicyRequest {
-                known: Some(policy.version()),
+                known: Some(policy.version),
                 announced: None,
-                config_hash: policy.config_hash(),
+                config_hash: policy.config_hash,
                 offset: 0,
             },
             None => PolicyRequest::default(),
@@ -373,7 +373,7 @@ impl<W> CachedRun<W> {
             tracing::warn!(run, version = bundle.version.number, "policy rejected: wrong run or checksum");
             return false;
         }
-        let cached = self.cached.as_ref().filter(|cached| cached.policy.config_hash() == bundle.config_hash);
+        let cached = self.cached.as_ref().filter(|cached| cached.policy.config_hash == bundle.config_hash);
         if let Some(CachedPolicy { config: (config_toml, model_xml), .. }) = cached
             && bundle.config_toml.is_empty()
             && bundle.model_xml.is_empty()

@@ -16,7 +16,7 @@ fn announcement(version: PolicyVersion) -> PolicyAnnouncement {
 
 /// Returns the answered requests and their versions.
 fn answers(steps: &Steps<u32>) -> Vec<(u32, PolicyVersion)> {
-    steps.answers.iter().map(|(waiter, policy)| (*waiter, policy.version())).collect()
+    steps.answers.iter().map(|(waiter, policy)| (*waiter, policy.version)).collect()
 }
 
 /// Returns a cache with the old version of run `walk`.

@@ -5,17 +5,15 @@ use std::time::Duration;
 use bytes::Bytes;
 use tokio::time::Instant;
 use treadmill_proto::{PolicyBundle, PolicyPiece, PolicyRequest, PolicyVersion};
-use zenoh::{
-    Wait,
-    handlers::FifoChannelHandler,
-    qos::{CongestionControl, Priority},
-    query::{ConsolidationMode, Reply},
-};
+use zenoh::{Wait, handlers::FifoChannelHandler, qos::Priority, query::Reply};
 
 use super::pieces;
 use crate::{
     error::BusError,
-    flows::{presence::live_runs, shared::next_valid},
+    flows::{
+        presence::live_runs,
+        shared::{ask, next_valid},
+    },
     session::Bus,
 };
 
@@ -86,7 +84,8 @@ pub(super) async fn fetch_pieces(
         let longest_wait = if partial.run.is_empty() { FIRST_TIMEOUT.min(timeout) } else { PIECE_TIMEOUT };
         for offset in partial.missing().take(WINDOW) {
             let request = PolicyRequest { offset: offset as u64, ..*request };
-            asked.push(get(bus, key.clone(), request.encode(), longest_wait)?);
+            let what = "asking for the policy";
+            asked.push(ask(bus, key.clone(), request.encode(), longest_wait, Priority::DataHigh, what)?);
         }
         let mut is_lost = false;
         for replies in asked {
@@ -118,18 +117,6 @@ async fn next_piece(replies: &FifoChannelHandler<Reply>, request: &PolicyRequest
             return Some(piece);
         }
     }
-}
-
-fn get(bus: &Bus, key: String, payload: Vec<u8>, timeout: Duration) -> Result<FifoChannelHandler<Reply>, BusError> {
-    bus.session
-        .get(key)
-        .payload(payload)
-        .timeout(timeout)
-        .consolidation(ConsolidationMode::None)
-        .priority(Priority::DataHigh)
-        .congestion_control(CongestionControl::Block)
-        .wait()
-        .map_err(BusError::flow("asking for the policy"))
 }
 
 /// Decodes a complete bundle and compares it with its pieces. Logs why it is rejected.

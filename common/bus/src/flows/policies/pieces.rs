@@ -36,9 +36,9 @@ pub(super) fn key_of(run: &str, node: &str) -> String {
 /// Newest policy as actors get it: without the critic.
 #[derive(Debug)]
 pub(super) struct ActorPolicy {
-    run: String,
-    version: PolicyVersion,
-    config_hash: u64,
+    pub(super) run: String,
+    pub(super) version: PolicyVersion,
+    pub(super) config_hash: u64,
     /// Encoded with configuration and model, for actors that join.
     pub(super) for_joining: Bytes,
     /// Encoded without them, for actors with the same configuration.
@@ -55,18 +55,6 @@ impl ActorPolicy {
             for_joining: bundle.encode()?.into(),
             update: bundle.without_config().encode()?.into(),
         })
-    }
-
-    pub(super) fn run(&self) -> &str {
-        &self.run
-    }
-
-    pub(super) fn version(&self) -> PolicyVersion {
-        self.version
-    }
-
-    pub(super) fn config_hash(&self) -> u64 {
-        self.config_hash
     }
 
     /// Returns the piece that a requester gets.

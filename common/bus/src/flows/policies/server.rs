@@ -68,7 +68,7 @@ pub struct PolicyServer {
 impl PolicyServer {
     /// Starts to serve `policy`, and announces it: a learner that takes over must be heard before it has learnt anything.
     pub fn open(bus: &Bus, policy: PublishedPolicy) -> Result<Self, BusError> {
-        let (run, announcement) = (policy.for_actors.run().to_string(), policy.announcement.encode());
+        let (run, announcement) = (policy.for_actors.run.clone(), policy.announcement.encode());
         let current = Arc::new(RwLock::new(policy));
         let pieces = PieceServer::start()?;
         let serve_pieces = |key| {

@@ -7,10 +7,14 @@
 use std::{sync::Arc, time::Duration};
 
 use treadmill_proto::PolicyRequest;
-use zenoh::{Wait, query::ConsolidationMode};
+use zenoh::{Wait, qos::Priority};
 
 use super::pieces;
-use crate::{error::BusError, flows::shared::serve, session::Bus};
+use crate::{
+    error::BusError,
+    flows::shared::{ask, serve},
+    session::Bus,
+};
 
 /// Error with which a standby answers requests for its policy.
 const FOLLOWS: &[u8] = b"this learner follows";
@@ -45,14 +49,8 @@ impl StandbyMark {
 /// If the bus fails.
 pub async fn is_behind_standby(bus: &Bus, run: &str, request: &PolicyRequest) -> Result<bool, BusError> {
     for node in bus.session.info().routers_zid().wait() {
-        let replies = bus
-            .session
-            .get(pieces::key_of(run, &node.to_string()))
-            .payload(request.encode())
-            .timeout(TIMEOUT)
-            .consolidation(ConsolidationMode::None)
-            .wait()
-            .map_err(BusError::flow("asking whether a learner follows"))?;
+        let (key, what) = (pieces::key_of(run, &node.to_string()), "asking whether a learner follows");
+        let replies = ask(bus, key, request.encode(), TIMEOUT, Priority::Data, what)?;
         while let Ok(reply) = replies.recv_async().await {
             if reply.result().is_err_and(|error| error.payload().to_bytes().as_ref() == FOLLOWS) {
                 return Ok(true);

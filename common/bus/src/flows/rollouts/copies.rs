@@ -63,13 +63,8 @@ impl RolloutCopies {
         Ok(Self { watched, waiting_bytes, queue, _publisher: publisher, _listener: listener })
     }
 
-    /// Returns whether a subscriber exists now.
-    pub fn is_watched(&self) -> bool {
-        self.watched.now()
-    }
-
     /// Returns the flag that says whether a subscriber exists.
-    pub(super) fn watched(&self) -> Watched {
+    pub fn watched(&self) -> Watched {
         self.watched.clone()
     }
 

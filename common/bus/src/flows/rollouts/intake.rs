@@ -11,11 +11,7 @@ use std::{
 
 use bytes::Bytes;
 use treadmill_proto::{Malformed, Outcome, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX};
-use zenoh::{
-    bytes::ZBytes,
-    qos::{CongestionControl, Priority},
-    query::{ConsolidationMode, Query},
-};
+use zenoh::{bytes::ZBytes, qos::Priority, query::Query};
 
 use super::{
     copies::RolloutCopies,
@@ -25,7 +21,7 @@ use crate::{
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog},
     error::BusError,
     flows::{
-        shared::{last_part, next_valid, reply, serve, start_thread},
+        shared::{ask, last_part, next_valid, reply, serve, start_thread},
         watched::Watched,
     },
     session::Bus,
@@ -289,16 +285,7 @@ pub async fn submit(
     timeout: Duration,
     settles: impl Fn(&Receipt) -> bool,
 ) -> Result<Option<Receipt>, BusError> {
-    let replies = bus
-        .session
-        .get(key(run, actor))
-        .payload(fragment)
-        .timeout(timeout)
-        .consolidation(ConsolidationMode::None)
-        .priority(Priority::Data)
-        .congestion_control(CongestionControl::Block)
-        .await
-        .map_err(BusError::flow("sending a fragment"))?;
+    let replies = ask(bus, key(run, actor), fragment, timeout, Priority::Data, "sending a fragment")?;
     let mut last = None;
     while let Some(receipt) = next_valid(&replies, "receipt", |payload| Receipt::decode(&payload)).await {
         if settles(&receipt) {
