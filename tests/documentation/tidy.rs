@@ -12,8 +12,8 @@ const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.
 const ALL_WORDS_MAX: usize = 34_000;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
-/// Most lines of Rust: in all, and of the product without tests. The goals are 83,000 and 55,000.
-const RUST_LINES_MAX: [usize; 2] = [87_000, 55_000];
+/// Most lines of Rust: in all, and of the product without tests.
+const RUST_LINES_MAX: [usize; 2] = [83_000, 55_000];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
