@@ -234,13 +234,6 @@ impl Environments {
         let zeros = self.reward_sums.iter().map(|(name, _)| (*name, 0.0)).collect();
         std::mem::replace(&mut self.reward_sums, zeros)
     }
-
-    /// Makes the physics of one environment fail at the next step; for tests.
-    #[doc(hidden)]
-    pub fn poison(&mut self, env: usize) {
-        let slot = self.vector.rows().nth(env).expect("there is this environment").0;
-        slot.environment.physics_mut().poison();
-    }
 }
 
 impl StepResults {

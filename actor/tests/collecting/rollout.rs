@@ -154,8 +154,9 @@ fn failed_physics_ends_the_episode_with_finite_numbers() {
     let mut environments = environments(2, &EnvironmentConfig::default(), "a", 0);
     let mut results = StepResults::default();
     environments.step(&[0.0; 34], &mut results);
-    environments.poison(1);
-    environments.step(&[0.0; 34], &mut results);
+    let mut actions = [0.0; 34];
+    actions[17] = f32::NAN;
+    environments.step(&actions, &mut results);
     assert_eq!(results.flags, [0, TERMINATED]);
     assert_eq!(results.rewards[1], 0.0);
     assert_eq!((results.episodes.len(), results.episodes[0].cause), (1, EndCause::NonFinite));
