@@ -346,10 +346,4 @@ impl Physics {
     pub(crate) fn declare_faulty(&mut self) {
         self.is_faulty = true;
     }
-
-    /// Makes the root's velocity NaN, so that the next step faults; for tests.
-    #[doc(hidden)]
-    pub fn poison(&mut self) {
-        self.world.velocity[0] = f64::NAN;
-    }
 }

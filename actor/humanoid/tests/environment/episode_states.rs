@@ -2,7 +2,7 @@
 
 use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, EpisodeState, StateError};
 
-use crate::support::{environment, play, randomised, reset};
+use crate::support::{environment, play, poison, randomised, reset};
 
 fn plain() -> EnvironmentConfig {
     EnvironmentConfig::from(EnvConfig { terminate_when_unhealthy: false, ..EnvConfig::default() })
@@ -58,7 +58,7 @@ fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
     assert_eq!(environment.episode_state(), None);
     let mut observation = reset(&mut environment, 1);
     let state = environment.episode_state().expect("the environment was reset");
-    environment.physics_mut().poison();
+    poison(environment.physics_mut());
     assert!(environment.step(&[0.0; 17], &mut observation).fault);
     assert_eq!(environment.episode_state(), None);
     environment.resume_episode(&state, &mut observation).expect("of the same build");

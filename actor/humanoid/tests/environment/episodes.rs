@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use treadmill_humanoid::{EnvConfig, EnvironmentConfig, StepOutcome};
 
-use crate::support::{environment, reset};
+use crate::support::{environment, poison, reset};
 
 /// Length of the compact observation.
 const SIZE: usize = 45;
@@ -87,7 +87,7 @@ fn a_fault_repeats_the_last_finite_observation() {
     let mut observation = reset(&mut environment, 5);
     environment.step(&[0.1; 17], &mut observation);
     let last = observation.clone();
-    environment.physics_mut().poison();
+    poison(environment.physics_mut());
     for _ in 0..2 {
         observation.fill(9.0);
         let step = environment.step(&[0.1; 17], &mut observation);

@@ -166,9 +166,8 @@ fn compact_is_the_beginning_of_v5() {
 #[test]
 fn a_reset_clears_torques_and_contacts() {
     let mut environment = environment(&config(V5));
-    let range =
-        block(&Observation::new(&environment.config().env, environment.physics().model()), "qfrc_actuator")
-            .start..environment.observation_size();
+    let range = block(&Observation::new(&environment.config().env, environment.physics().model()), "qfrc_actuator")
+        .start..environment.observation_size();
     let mut observation = reset(&mut environment, 1);
     for _ in 0..100 {
         environment.step(&[0.4; 17], &mut observation);

@@ -81,3 +81,10 @@ pub fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec
     }
     bits
 }
+
+/// Makes the root's velocity NaN, so that the next step faults.
+pub fn poison(physics: &mut Physics) {
+    let (position, mut velocity) = (physics.position().to_vec(), physics.velocity().to_vec());
+    velocity[0] = f64::NAN;
+    physics.set_state(&position, &velocity);
+}
