@@ -6,15 +6,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?usage: fuzz/run.sh SECONDS [TARGET ...]}
 shift
-all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
+[ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(basename -s .tar.gz fuzz/seeds/*.tar.gz)
 
 # Default members and `fuzz`, so that other builds share dependencies.
 build=(cargo build --release --workspace --exclude treadmill-watch --exclude treadmill-gym)
-coverage=("${build[@]}" --features treadmill-fuzz/libfuzzer)
-for target in "${targets[@]}"; do coverage+=(--bin "$target"); done
-RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${coverage[@]}"
+RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}" --features treadmill-fuzz/libfuzzer --bin fuzz_target
 "${build[@]}" --example seeds
 target/release/examples/seeds fuzz/corpus
 
@@ -26,10 +23,11 @@ for target in "${targets[@]}"; do
     mkdir -p "${corpus[@]}" "fuzz/artifacts/$target"
     tar -xzf "fuzz/seeds/$target.tar.gz" -C "$seeds/$target"
     echo "=== $target"
-    "target/release/$target" "${corpus[@]}" "${limits[@]}" -max_total_time="$seconds" \
+    export TREADMILL_FUZZ_TARGET=$target
+    target/release/fuzz_target "${corpus[@]}" "${limits[@]}" -max_total_time="$seconds" \
         -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
         grep -v '^#[0-9]*[[:space:]]*\(NEW\|REDUCE\|pulse\|RELOAD\)'
-    "target/release/$target" -set_cover_merge=1 -use_counters=0 "${limits[@]}" \
+    target/release/fuzz_target -set_cover_merge=1 -use_counters=0 "${limits[@]}" \
         "$seeds/$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
     # The same inputs give the same archive.
     tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C "$seeds/$target" -cf - . |

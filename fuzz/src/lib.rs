@@ -5,7 +5,7 @@
 //!   a second round trip.
 //! - [`robots`]: random robots that must simulate.
 //! - [`samples`]: one valid message of each kind.
-//! - `fuzz_targets/`: these functions for `cargo fuzz`, behind the feature `libfuzzer`.
+//! - `fuzz_targets/`: program for `cargo fuzz` that runs one of these functions, behind the feature `libfuzzer`.
 //! - `tests/`: these functions in `cargo test`, on random bytes and mutated samples, with a limit on allocated memory.
 
 pub mod robots;
