@@ -55,7 +55,7 @@ pub use error::{InputError, ModelError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use mjcf::{HUMANOID_XML, read_model_file};
 pub use model::{Model, mirror::Mirror};
-pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
+pub use observation::Observation;
 pub use physics::{ContactForce, Physics, PhysicsFault, Variation};
 pub use randomisation::SensorNoise;
 pub use task::{ObservationTerm, StepOutcome, Task, TaskRegistry};

@@ -43,9 +43,6 @@ use crate::model::Model;
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
 
-/// Length of the compact observation of [`crate::HUMANOID_XML`]: 22 position and 23 velocity numbers.
-pub const OBSERVATION_SIZE_COMPACT: usize = 45;
-
 /// Numbers of the position vector that can be excluded: x and y, because walking must not depend on them.
 const EXCLUDABLE: usize = 2;
 /// Position of the torso's quaternion, counted from the height; hinge angles, then velocities follow.
