@@ -94,6 +94,7 @@ fn a_video_is_written_by_ffmpeg() {
     install(&tools.join("ffmpeg"), "#!/bin/sh\necho \"$@\" >arguments\nfor last; do :; done\nexec cat >\"$last\"\n");
     let output = film(&path);
     assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("pictures of 64x48"), "{}", stdout(&output));
     let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
     assert!(arguments.contains("-video_size 64x48 -framerate 25"), "{arguments}");
     let bytes = fs::read(folder.path().join("a.mp4")).unwrap().len();
