@@ -141,19 +141,6 @@ impl EnvironmentConfig {
         }
         Ok(())
     }
-
-    /// Returns the first setting that differs from another configuration's: key, value here, value there.
-    #[must_use]
-    pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
-        let [here, there] = [self, other].map(|config| toml::Table::try_from(config).unwrap_or_default());
-        here.iter().find_map(|(section, value)| match (value, there.get(section)?) {
-            (toml::Value::Table(here), toml::Value::Table(there)) => here.iter().find_map(|(name, value)| {
-                let other = there.get(name)?;
-                (value != other).then(|| (format!("{section}.{name}"), value.to_string(), other.to_string()))
-            }),
-            (value, other) => (value != other).then(|| (section.clone(), value.to_string(), other.to_string())),
-        })
-    }
 }
 
 #[cfg(test)]
@@ -195,15 +182,6 @@ mod tests {
         with_kinds(EnvTask::Velocity, 9).unwrap();
         assert!(with_kinds(EnvTask::Velocity, 10).unwrap_err().contains("below ground.levels, which is 10"));
         assert!(with_kinds(EnvTask::HumanoidV5, 0).unwrap_err().contains("`ground.kinds` is [\"stairs\"]"));
-    }
-
-    #[test]
-    fn the_first_difference_is_named_with_both_values() {
-        let (here, mut there) = (EnvironmentConfig::default(), EnvironmentConfig::default());
-        assert_eq!(here.difference(&there), None);
-        there.rewards.gait = 3.0;
-        assert_eq!(here.difference(&there), Some(("rewards.gait".into(), "2.0".into(), "3.0".into())));
-        assert_eq!(here.clone().plain().difference(&here).unwrap().0, "has_curricula");
     }
 
     #[test]
