@@ -100,5 +100,5 @@ fn choices(argument: &Arg) -> String {
     let takes_values = matches!(argument.get_action(), ArgAction::Set | ArgAction::Append);
     let values = argument.get_possible_values();
     let named: Vec<String> = values.iter().map(|value| format!("`{}`", value.get_name())).collect();
-    if takes_values && !named.is_empty() { format!(" One of {}.", named.join(", ")) } else { String::new() }
+    if takes_values && !named.is_empty() { format!(". One of {}.", named.join(", ")) } else { String::new() }
 }

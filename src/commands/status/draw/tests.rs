@@ -78,7 +78,7 @@ fn forty_columns_show_values_instead_of_curves() {
     let screen = screen(&mut fleet(&[samples::run("walk-1", 200)], now), 40, 10);
     assert_shows(&screen, &["walk-1  training", "52 %", "4.19M of 8.00M", "3 min to go"]);
     assert_shows(&screen, &["22.9k steps/s  121 frag/s  121 MB/s", "return 5892  18.3 m  1.30 m/s"]);
-    assert_shows(&screen, &["actor-0", "1000", "alive", "q quit  ? help", "1–3 of 200"]);
+    assert_shows(&screen, &["actor-0", "1000", "alive", "q quit  ? help", "1–4 of 200"]);
 }
 
 #[test]
