@@ -64,7 +64,8 @@ impl RunSettings {
         }
         if !unknown.is_empty() {
             let keys = unknown[..unknown.len().min(NAMED_MAX)].join(", ");
-            tracing::info!(run = %bundle.run, %keys, count = unknown.len(), "ignored unknown keys of the run's configuration");
+            let count = unknown.len();
+            tracing::info!(run = %bundle.run, %keys, count, "ignored unknown keys of the run's configuration");
         }
         let settings = Self::of(source.build()?);
         match settings.external_task {

@@ -40,8 +40,8 @@ impl EvaluationReport {
     pub fn encode(&self) -> Vec<u8> {
         message!(
             wire::EvaluationReport,
-            clone self [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps, falls,
-                velocity_error_mps, yaw_rate_error_radps],
+            clone self [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps,
+                falls, velocity_error_mps, yaw_rate_error_radps],
             { version: Some(self.version) }
         )
         .encode_to_vec()
@@ -73,8 +73,8 @@ impl EvaluationReport {
         }
         Ok(message!(
             Self,
-            message [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps, falls,
-                velocity_error_mps, yaw_rate_error_radps],
+            message [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps,
+                falls, velocity_error_mps, yaw_rate_error_radps],
             { version: version::required(message.version)? }
         ))
     }

@@ -176,8 +176,8 @@ impl TrainingState {
         let parameters_max = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
         (parameters > parameters_max).then(|| {
             format!(
-                "networks for {task} have {parameters} parameters with policy.hidden {:?}, and a policy bundle holds at most \
-                 {parameters_max}; make policy.hidden narrower",
+                "networks for {task} have {parameters} parameters with policy.hidden {:?}, and a policy bundle holds at \
+                 most {parameters_max}; make policy.hidden narrower",
                 config.policy.hidden
             )
         })

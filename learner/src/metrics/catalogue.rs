@@ -63,7 +63,10 @@ impl MetricRow {
 
 /// Declares metrics: `/// help` `tag, unit, typical => source;`. `IMPORTANT` before the tag makes it such a metric.
 macro_rules! metrics {
-    ($( $(#[doc = $help:literal])+ $($important:ident)? $tag:literal, $unit:literal, $typical:literal => $source:expr; )*) => {
+    ($(
+        $(#[doc = $help:literal])+
+        $($important:ident)? $tag:literal, $unit:literal, $typical:literal => $source:expr;
+    )*) => {
         &[$( MetricRow {
             tag: $tag,
             unit: $unit,
@@ -138,7 +141,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Standard deviation of the exploration noise, mean over actions from −1 to 1. Starts at exp(`policy.init_log_std`).
     IMPORTANT "train/std", "action range", "0.6→0.5" => Sometimes(|r| Some(r.update?.std));
     /// Samples (batch times epochs) per second of gradient steps alone.
-    "train/samples_per_s", "1/s", "275000" => Sometimes(|r| Some(r.update?.samples as f64 / r.durations.learn.as_secs_f64().max(1e-9)));
+    "train/samples_per_s", "1/s", "275000"
+        => Sometimes(|r| Some(r.update?.samples as f64 / r.durations.learn.as_secs_f64().max(1e-9)));
     /// `ppo.clip_range`; constant.
     "train/clip_range", "–", "0.2" => Always(|r| r.clip_range);
     /// Transitions of this update: all that actors delivered, at least `ppo.batch`.
@@ -208,7 +212,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Fragments that live actors sent again: no receipt, or the learner was busy, stopping or restarted.
     "actors/fragments_resent", "count", "" => Always(|r| r.sum(|stats| stats.resent as f64));
     /// Resident memory of the largest actor; 0 without `/proc`.
-    "actors/memory_max_mb", "MB", "39" => Always(|r| r.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0) as f64 / 1e6);
+    "actors/memory_max_mb", "MB", "39"
+        => Always(|r| r.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0) as f64 / 1e6);
     /// Time in which the learner waited for rollouts, in the last 20 updates: the demand for more actors. Never
     /// near 0 in mode `sync`.
     "learner/wait_share", "share", "0.69" => Always(|r| r.efficiency.wait_share);
@@ -228,7 +233,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Total distance over total time.
     "eval/velocity_mean_mps", "m/s", "0.35→1.4" => Sometimes(|r| Some(r.evaluation?.0.velocity_mean_mps));
     /// Episodes that ended with a fall.
-    "eval/fall_fraction", "share", "1→0" => Sometimes(|r| r.evaluation.map(|(report, _)| f64::from(report.falls) / f64::from(report.episodes)));
+    "eval/fall_fraction", "share", "1→0"
+        => Sometimes(|r| r.evaluation.map(|(report, _)| f64::from(report.falls) / f64::from(report.episodes)));
     /// Environment steps that the evaluated policy had learnt from.
     "eval/total_timesteps", "steps", "" => Sometimes(|r| Some(r.evaluation?.1 as f64));
     /// Error of the base's horizontal velocity, for tasks with commands: mean over windows of 1 s without change or push.

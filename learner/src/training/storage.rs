@@ -103,7 +103,8 @@ impl Storage {
         match (leadership.end(status, within), status) {
             (Ok(()), _) => {}
             (Err(why), Status::Stopped) => {
-                tracing::warn!(error = %error_chain(&why), "the store does not know that the run was stopped: stop standbys, too");
+                let error = error_chain(&why);
+                tracing::warn!(%error, "the store does not know that the run was stopped: stop standbys, too");
             }
             (Err(why), _) => tracing::debug!(error = %error_chain(&why), "end of the leadership not written"),
         }

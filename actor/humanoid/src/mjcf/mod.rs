@@ -53,8 +53,8 @@ impl Model {
     pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
         let model = Self::without_motors(text)?;
         if model.motors.is_empty() {
-            let problem = "the model needs at least one motor; a robot card gives it servos, and `treadmill robot FILE` drafts \
-                           that card";
+            let problem = "the model needs at least one motor; a robot card gives it servos, and `treadmill robot FILE` \
+                           drafts that card";
             return Err(ModelError::unsupported("actuator", problem));
         }
         Ok(model)

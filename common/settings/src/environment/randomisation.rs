@@ -34,7 +34,8 @@ section! {
         /// Standard deviation of the noise on each control, as a fraction of the largest control.
         control_noise: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Control steps until an action reaches the motors; constant during an episode.
-        action_delay_steps: [u32; 2] = [0, 0], "[smallest, largest], 0 to 3" => |v| v[0] <= v[1] && v[1] <= RandomisationConfig::DELAY_MAX_STEPS;
+        action_delay_steps: [u32; 2] = [0, 0], "[smallest, largest], 0 to 3"
+            => |v| v[0] <= v[1] && v[1] <= RandomisationConfig::DELAY_MAX_STEPS;
         /// Seconds between two pushes, and before the first of an episode.
         push_interval_s: [f64; 2] = [2.0, 5.0], "[smallest, largest], env.control_step_s to 1000"
             => |v| is_range(v, 0.0, 1000.0);
