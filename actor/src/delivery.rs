@@ -11,7 +11,8 @@ use std::{
 use bytes::Bytes;
 use treadmill_bus::{Bus, BusError, actor::submit};
 use treadmill_experience::delivery::{Action, Attempt, Delivery, DeliveryCounts, Event, settles};
-use treadmill_proto::{Outcome, Receipt};
+use treadmill_proto::{ActorStats, Outcome, Receipt};
+use treadmill_runtime::machine;
 
 use crate::policy_fetcher::{PolicyFetcher, Refresh};
 
@@ -66,6 +67,26 @@ impl Uploader {
     /// Returns the present counts.
     pub fn counts(&self) -> DeliveryCounts {
         self.delivery().counts()
+    }
+
+    /// Returns the statistics of this process and its deliveries; the caller adds those of what it simulates.
+    pub fn stats(&self) -> ActorStats {
+        let counts = self.counts();
+        ActorStats {
+            actor: self.actor.clone(),
+            host: machine::host_name(),
+            pid: std::process::id(),
+            version: Some(self.policies.current().version),
+            produced: counts.produced,
+            accepted: counts.accepted,
+            dropped_by_rule: counts.dropped_by_rule,
+            in_flight: counts.in_flight,
+            resent: counts.resent,
+            awaiting_durability: counts.awaiting_durability,
+            resident_bytes: machine::resident_bytes(),
+            program_version: env!("CARGO_PKG_VERSION").to_string(),
+            ..ActorStats::default()
+        }
     }
 
     /// Returns the highest number up to which every fragment is durable or dropped.

@@ -15,7 +15,7 @@ use treadmill_bus::{
     observer::{newest_of_each_run, statuses},
 };
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
-use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
+use treadmill_runtime::{epoch::SeenEpoch, seeds, shutdown::Shutdown};
 
 pub use options::{ActorSummary, BehindStandby, WorkerOptions};
 
@@ -294,26 +294,14 @@ impl<'a> Membership<'a> {
     fn stats(&self, rate: &mut RateMeter) -> ActorStats {
         let progress = &self.shared.progress;
         let env_steps = progress.env_steps.load(Ordering::Relaxed);
-        let counts = self.shared.uploader.counts();
         ActorStats {
-            actor: self.identity.actor.clone(),
             incarnation: self.identity.incarnation,
-            host: machine::host_name(),
-            pid: std::process::id(),
-            version: Some(self.shared.policies.current().version),
             envs: self.options.envs,
             env_steps_per_s: rate.update(env_steps),
             env_steps,
             episodes: progress.episodes.load(Ordering::Relaxed),
             faults: progress.faults.load(Ordering::Relaxed),
-            produced: counts.produced,
-            accepted: counts.accepted,
-            dropped_by_rule: counts.dropped_by_rule,
-            in_flight: counts.in_flight,
-            resent: counts.resent,
-            awaiting_durability: counts.awaiting_durability,
-            resident_bytes: machine::resident_bytes(),
-            program_version: env!("CARGO_PKG_VERSION").to_string(),
+            ..self.shared.uploader.stats()
         }
     }
 }

@@ -287,7 +287,7 @@ impl Environment {
         self.task.steer(command)
     }
 
-    /// Returns the info of the last step or reset; `None` if the task is none of Gymnasium's.
+    /// Returns the info of the last step or reset; `None` for tasks other than Gymnasium's.
     #[must_use]
     pub fn info(&self) -> Option<&StepInfo> {
         self.last_info.as_ref()

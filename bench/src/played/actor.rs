@@ -254,26 +254,8 @@ impl PlayedActor {
     }
 
     fn stats(&self, env_steps: u64, env_steps_per_s: f64) -> ActorStats {
-        let counts = self.uploader.counts();
-        ActorStats {
-            actor: self.name.clone(),
-            incarnation: self.run.incarnation,
-            host: machine::host_name(),
-            pid: std::process::id(),
-            version: Some(self.policies.current().version),
-            envs: self.run.envs,
-            env_steps,
-            env_steps_per_s,
-            produced: counts.produced,
-            accepted: counts.accepted,
-            dropped_by_rule: counts.dropped_by_rule,
-            in_flight: counts.in_flight,
-            resent: counts.resent,
-            awaiting_durability: counts.awaiting_durability,
-            resident_bytes: machine::resident_bytes(),
-            program_version: env!("CARGO_PKG_VERSION").to_string(),
-            ..ActorStats::default()
-        }
+        let PlayedRun { incarnation, envs, .. } = *self.run;
+        ActorStats { incarnation, envs, env_steps, env_steps_per_s, ..self.uploader.stats() }
     }
 }
 

@@ -45,11 +45,11 @@ impl TaskRegistry {
     /// Builds the task that a configuration selects.
     pub(crate) fn build(&self, config: &EnvironmentConfig, physics: &Physics) -> Result<Box<dyn Task>, ModelError> {
         let name = match config.env.chosen_task() {
-            // External tasks are simulated elsewhere; the humanoid takes their place where only its body is shown.
-            ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 | ChosenTask::External => {
-                return Ok(Box::new(HumanoidTask::new(config, physics)));
-            }
+            ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => return Ok(Box::new(HumanoidTask::new(config, physics))),
             ChosenTask::Velocity => return Ok(Box::new(VelocityTask::new(config, physics)?)),
+            ChosenTask::External => {
+                return Err(ModelError::Task("other programs simulate the external task".to_owned()));
+            }
             ChosenTask::Own(name) => name,
         };
         let Some((_, builder)) = self.own.iter().find(|(known, _)| *known == name) else {

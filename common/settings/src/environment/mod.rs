@@ -8,8 +8,6 @@ mod randomisation;
 mod rewards;
 mod velocity;
 
-use serde::{Deserialize, Serialize};
-
 pub use self::env::{ChosenTask, EnvConfig, EnvObservation, EnvTask, is_task_name};
 pub use self::ground::{GroundConfig, GroundKind};
 pub use self::randomisation::RandomisationConfig;
@@ -18,8 +16,7 @@ pub use self::velocity::VelocityConfig;
 use super::{ConfigError, Section, SectionDoc, refuse, show};
 
 /// Settings of one environment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentConfig {
     /// Whether the curricula of ground and commands run. Otherwise an episode does not depend on earlier ones: it draws its
     /// level of the ground's difficulty, and commands have their full ranges. Not a key of a configuration.
@@ -52,12 +49,6 @@ impl Default for EnvironmentConfig {
 impl From<EnvConfig> for EnvironmentConfig {
     fn from(env: EnvConfig) -> Self {
         Self { env, ..Self::default() }
-    }
-}
-
-impl From<RandomisationConfig> for EnvironmentConfig {
-    fn from(randomisation: RandomisationConfig) -> Self {
-        Self { randomisation, ..Self::default() }
     }
 }
 
