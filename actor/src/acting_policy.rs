@@ -1,7 +1,8 @@
 //! Policy in use: actor network, observation statistics and version of one bundle.
 
 use treadmill_policy::{
-    NetworkShape, Policy, actor_from_safetensors, exported::ExportedPolicy, normaliser::Normaliser,
+    NetworkShape, Networks, Policy, PolicyMirror, actor_from_safetensors, exported::ExportedPolicy,
+    normaliser::Normaliser,
 };
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 use treadmill_runtime::{error_chain, seeds};
@@ -31,7 +32,12 @@ impl ActingPolicy {
         };
         let parameters = actor_from_safetensors(&bundle.weights, &shape);
         let parameters = parameters.map_err(|error| refuse(error_chain(&error)))?;
-        let policy = Policy::new(shape, parameters).map_err(|error| refuse(error_chain(&error)))?;
+        let mirror = PolicyMirror::of_indices(&bundle.observation_mirror, &bundle.action_mirror);
+        let networks = Networks::new(shape, mirror).map_err(refuse)?;
+        let parameters = networks.learnt(parameters).map_err(|distance| {
+            refuse(format!("its networks do not fit its mirror: their relative distance is {distance}"))
+        })?;
+        let policy = Policy::new(networks, parameters).map_err(|error| refuse(error_chain(&error)))?;
         let normaliser = Normaliser {
             mean: bundle.observation_mean.clone(),
             inverse_std: bundle.observation_inverse_std.clone(),

@@ -24,7 +24,7 @@ use treadmill_learner::{
     },
     waiting::Heartbeat,
 };
-use treadmill_policy::{NetworkShape, actor_to_safetensors, init::initial_parameters, to_safetensors};
+use treadmill_policy::{NetworkShape, Networks, actor_to_safetensors, to_safetensors};
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion};
 use treadmill_rl::{
@@ -163,7 +163,7 @@ fn checksum_of(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
 fn bundles(config_toml: &str) -> [PolicyBundle; 2] {
     let (observation, action) = (WIDTHS.0 as usize, WIDTHS.1 as usize);
     let shape = NetworkShape { observation, action, hidden: HIDDEN.to_vec(), privileged: 0 };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-policy", &[]));
+    let parameters = Networks::from(shape.clone()).initial_parameters(-0.5, &mut seeds::stream(1, "bench-policy", &[]));
     let weights = [to_safetensors(&shape, &parameters), actor_to_safetensors(&shape, &parameters)];
     weights.map(|weights| PolicyBundle {
         run: RUN.to_string(),

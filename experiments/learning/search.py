@@ -54,7 +54,7 @@ CANDIDATES = {
     "first log std −1": ["policy.init_log_std=-1"],
     "discount 0.98": ["ppo.gamma=0.98"],
     "λ 0.9": ["ppo.gae_lambda=0.9"],
-    "mirror images": ["ppo.symmetry=mirrored", "ppo.minibatch=4096"],
+    "dense networks": ["ppo.symmetry=off"],
     "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
     "sees contacts": observing("cfrc_ext"),
     "sees torques": observing("qfrc_actuator"),

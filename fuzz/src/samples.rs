@@ -125,6 +125,8 @@ pub fn bundle() -> Vec<u8> {
         wire_version_min: 1,
         physics_version: 1,
         privileged_size: 0,
+        observation_mirror: Vec::new(),
+        action_mirror: Vec::new(),
     }
     .encode()
     .expect("a valid message")
@@ -178,7 +180,7 @@ golden! {
 pub fn checkpoint() -> Vec<u8> {
     let mut config = Config::default();
     config.policy.hidden = vec![2];
-    let state = TrainingState::fresh(RUN, &config, "<mujoco/>", WIDTH as usize, 0, 1, INCARNATION);
+    let state = TrainingState::fresh(RUN, &config, "<mujoco/>", shape().into(), INCARNATION);
     // Without the header, which the target adds.
     encoding::encode(&state).expect("a valid message")[52..].to_vec()
 }

@@ -91,6 +91,11 @@ pub struct PolicyBundle {
     pub physics_version: u32,
     /// Last entries of an observation that only the critic sees.
     pub privileged_size: u32,
+    /// Mirror image of an observation: for each entry the number of the original entry from 1, negative if the sign
+    /// changes; empty if the networks have none.
+    pub observation_mirror: Vec<i32>,
+    /// Mirror image of an action.
+    pub action_mirror: Vec<i32>,
 }
 
 impl PolicyBundle {
@@ -119,6 +124,17 @@ impl PolicyBundle {
             }
             planes::check_finite(field, plane)?;
         }
+        for (field, mirror, size) in [
+            ("observation_mirror", &self.observation_mirror, size),
+            ("action_mirror", &self.action_mirror, self.action_size as usize),
+        ] {
+            if !mirror.is_empty() && mirror.len() != size {
+                return Err(Malformed::length(field, mirror.len(), format!("0 or {size}")));
+            }
+            if let Some(wrong) = mirror.iter().find(|index| !(1..=size).contains(&(index.unsigned_abs() as usize))) {
+                return Err(Malformed::field(field, wrong, format!("1 to {size}, or the same below 0")));
+            }
+        }
         if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
         }
@@ -139,7 +155,7 @@ impl PolicyBundle {
             wire::PolicyBundle,
             clone self [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
-                privileged_size],
+                privileged_size, observation_mirror, action_mirror],
             {
                 version: Some(self.version),
                 observation_mean: planes::to_bytes(&self.observation_mean),
@@ -155,7 +171,7 @@ impl PolicyBundle {
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
         check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
-        check_hidden_count(&bytes)?;
+        check_counts(&bytes)?;
         let message = wire::PolicyBundle::decode(bytes).map_err(Malformed::undecodable(BUNDLE))?;
         check_range("observation_size", message.observation_size, WIDTH_MAX)?;
         let size = message.observation_size as usize;
@@ -164,7 +180,7 @@ impl PolicyBundle {
             Self,
             message [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
-                privileged_size],
+                privileged_size, observation_mirror, action_mirror],
             {
                 version: version::required(message.version)?,
                 observation_mean: plane("observation_mean", &message.observation_mean)?,
@@ -176,22 +192,26 @@ impl PolicyBundle {
     }
 }
 
-/// Checks the number of widths before decoding, because one encoded byte becomes four.
-fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
-    const HIDDEN_FIELD: u32 = 5;
-    let mut widths = 0;
+/// Checks the lengths of lists of integers before decoding, because one encoded byte becomes four.
+fn check_counts(bytes: &[u8]) -> Result<(), Malformed> {
+    let mut lists = [
+        (5, "hidden", HIDDEN_LAYERS_MAX, 0),
+        (20, "observation_mirror", WIDTH_MAX as usize, 0),
+        (21, "action_mirror", WIDTH_MAX as usize, 0),
+    ];
     scan::all(BUNDLE, Cursor::whole(bytes), |field| {
-        if field.number == HIDDEN_FIELD {
+        if let Some((_, _, _, size)) = lists.iter_mut().find(|(number, ..)| *number == field.number) {
             // Packed, or one field each.
-            widths += field.bytes.map_or(1, |packed| packed.remaining().max(1));
+            *size += field.bytes.map_or(1, |packed| packed.remaining().max(1));
         }
     })?;
-    // A width takes at most five bytes.
-    if widths > 5 * HIDDEN_LAYERS_MAX {
-        let expected = format!("1 to {HIDDEN_LAYERS_MAX} layers");
-        return Err(Malformed::field("hidden", format!("{widths} bytes long"), expected));
+    // An integer takes at most five bytes.
+    match lists.into_iter().find(|(_, _, most, size)| *size > 5 * most) {
+        Some((_, field, most, size)) => {
+            Err(Malformed::field(field, format!("{size} bytes long"), format!("at most {most} numbers")))
+        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -219,6 +239,8 @@ mod tests {
             wire_version_min: 1,
             physics_version: 3,
             privileged_size: 1,
+            observation_mirror: vec![1, -2],
+            action_mirror: vec![-1],
         }
     }
 

@@ -53,20 +53,18 @@ fn begin_built_in(launcher: Launcher<'_>, new: &NewRunArgs, any: &AnyRunArgs, co
     let device = open_device(&config, any.device)?;
     let text = model::completed(&config, any.model.as_deref())?;
     let environment = model::environment(launcher.tasks, &config, &text, any.model.as_deref())?;
-    let mirror = model::mirror(launcher.tasks, &config, &text)?;
-    let (observation, action) = (environment.observation_size(), environment.action_size());
-    let privileged = environment.privileged_size();
+    let networks = model::networks(&config, &environment)?;
     if launcher.command == RunCommand::Train {
-        check_fragments(&config, observation, action)?;
+        check_fragments(&config, environment.observation_size(), environment.action_size())?;
     }
-    let fresh = TrainingState::fresh("", &config, &text, observation, privileged, action, seeds::unique());
+    let fresh = TrainingState::fresh("", &config, &text, networks, seeds::unique());
     let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
     let init_from = InitFrom::read(new, any)?;
     let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let setup = RunSetup { config, folder, device, mirror, run, origin, store: None };
+    let setup = RunSetup { config, folder, device, run, origin, store: None };
     Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 
@@ -80,7 +78,7 @@ fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow:
     let init_from = InitFrom::read(new, any)?;
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
-    let mut setup = RunSetup { config, folder, device, mirror: None, run, origin: None, store: None };
+    let mut setup = RunSetup { config, folder, device, run, origin: None, store: None };
     let state = match known {
         Some(task) => {
             let fresh = setup.set_task(task, init_from.as_ref()).inspect_err(|_| setup.folder.discard())?;
@@ -106,26 +104,24 @@ fn branch_off(
     let device = open_device(&config, any.device)?;
     let (prefix, origin) = (format!("{}-fork", fork.state.run), Some(fork.origin.clone()));
     let mut state = fork.with_config(&config)?;
-    let mut mirror = None;
     if !config.is_external() {
         if let Some(file) = &any.model {
             model::check_same(&config, &state.model_xml, file)?;
         }
         let environment = model::environment(launcher.tasks, &config, &state.model_xml, None)?;
-        let (size, wanted) = (environment.observation_size(), state.shape.observation);
-        if size != wanted || environment.privileged_size() != state.shape.privileged {
+        let (size, wanted) = (environment.observation_size(), state.shape().observation);
+        if size != wanted || environment.privileged_size() != state.shape().privileged {
             let why = format!("`--fork`: this configuration has {size} observations, and the networks take {wanted}");
             return Err(Usage(why + "; keep env.observation").into());
         }
-        mirror = model::mirror(launcher.tasks, &config, &state.model_xml)?;
         if launcher.command == RunCommand::Train {
-            check_fragments(&config, size, state.shape.action)?;
+            check_fragments(&config, size, state.shape().action)?;
         }
     }
     let (folder, lock) = create_folder(new, any, &prefix)?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let setup = RunSetup { config, folder, device, mirror, run, origin, store: None };
+    let setup = RunSetup { config, folder, device, run, origin, store: None };
     Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 

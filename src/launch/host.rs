@@ -219,13 +219,12 @@ impl<'a> Host<'a> {
         restarts: Arc<AtomicU64>,
         epoch: u64,
     ) -> TrainingOptions {
-        let RunSetup { config, folder, device, mirror, .. } = setup;
+        let RunSetup { config, folder, device, .. } = setup;
         TrainingOptions {
             folder,
             epoch,
             steps: config.run.steps,
             device,
-            mirror,
             report: ReportOptions {
                 console,
                 prometheus: self.prometheus.clone(),

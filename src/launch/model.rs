@@ -8,7 +8,8 @@ use std::{
 use clap::Args;
 use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, TaskRegistry, mjcf, read_model_file};
-use treadmill_ppo::{BatchMirror, IndexSwap, settings::needs_mirror};
+use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
+use treadmill_ppo::settings::wants_mirror;
 use treadmill_runtime::{error_chain, words::nearest_path};
 
 use crate::launch::exit_code::Usage;
@@ -100,21 +101,29 @@ pub fn action_names(text: &str) -> Vec<String> {
     model.map(|model| model.motors.iter().map(|motor| motor.name.clone()).collect()).unwrap_or_default()
 }
 
-/// Returns the mirror for `ppo.symmetry`.
-pub fn mirror(tasks: &TaskRegistry, config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
-    if !needs_mirror(&config.ppo) {
-        return Ok(None);
-    }
-    let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
-    let environment = environment(tasks, config, text, None)?;
-    let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
-    let Some(observation) = environment.task().mirrored(&of_body) else {
-        return Err(refuse(
-            "this observation has no mirror image; \"compact\" and the velocity task's have one".to_string(),
-        ));
+/// Returns the networks of a new run, which `ppo.symmetry` may make equivariant to the mirror of robot and task.
+pub fn networks(config: &Config, environment: &Environment) -> Result<Networks, Usage> {
+    let shape = NetworkShape {
+        observation: environment.observation_size(),
+        action: environment.action_size(),
+        hidden: config.policy.hidden.iter().map(|width| *width as usize).collect(),
+        privileged: environment.privileged_size(),
     };
-    let observation = IndexSwap(observation);
-    Ok(Some(BatchMirror { observation, action: IndexSwap(of_body.action) }))
+    let equivariant = || {
+        let of_body = treadmill_humanoid::Mirror::of(environment.physics().model())?;
+        let observation = environment.task().mirrored(&of_body).ok_or("this task has no mirror image")?;
+        Networks::new(shape.clone(), Some(PolicyMirror { observation, action: of_body.action }))
+    };
+    match wants_mirror(&config.ppo) {
+        Some(false) => Ok(shape.into()),
+        Some(true) => equivariant().map_err(|why| {
+            Usage(format!("`ppo.symmetry` is \"equivariant\", but {why}; allowed here: \"auto\" or \"off\""))
+        }),
+        None => Ok(equivariant().unwrap_or_else(|why| {
+            tracing::info!(why, "the networks are not equivariant");
+            shape.into()
+        })),
+    }
 }
 
 /// Checks that `file` is the model of the resumed run.

@@ -6,7 +6,6 @@ use treadmill_config::{Config, LearnerMode};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::device::{Device, DeviceKind};
-use treadmill_ppo::BatchMirror;
 use treadmill_proto::Task;
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds, words};
 
@@ -79,8 +78,6 @@ pub struct RunSetup {
     pub folder: RunFolder,
     /// Device of its networks.
     pub device: Device,
-    /// Mirror for its updates, with `ppo.symmetry`.
-    pub mirror: Option<BatchMirror>,
     /// Its name on the bus.
     pub run: String,
     /// Where its first state came from, if it is not fresh.
@@ -100,10 +97,10 @@ impl RunSetup {
     /// # Errors
     /// If the task is not allowed, the policy does not fit, or the configuration cannot be written.
     pub fn set_task(&mut self, task: Task, init_from: Option<&InitFrom>) -> anyhow::Result<TrainingState> {
-        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
+        let shape = TrainingState::shape_for(&self.config, &task);
         self.config.task = task.into();
         self.config.check()?;
-        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", observation, 0, action, seeds::unique());
+        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", shape.into(), seeds::unique());
         self.origin = init_from.map(|from| from.copy_to(&mut fresh)).transpose()?;
         atomic_file::write(&self.folder.config(), self.config.to_toml().as_bytes())?;
         Ok(fresh)

@@ -94,9 +94,8 @@ pub fn go_on(
     config.run.steps = goal;
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
-    let mirror = model::mirror(launcher.tasks, &config, &state.model_xml)?;
     let (run, store) = (state.run.clone(), any.store.clone());
-    let setup = RunSetup { config, folder, device, mirror, run, origin: None, store };
+    let setup = RunSetup { config, folder, device, run, origin: None, store };
     let state = FirstState::Known(Box::new(state));
     Ok(Start::Ready(Box::new(Prepared { setup, state }), lock))
 }

@@ -58,7 +58,7 @@ impl InitFrom {
     /// # Errors
     /// If its networks have another shape.
     pub fn copy_to(&self, state: &mut TrainingState) -> anyhow::Result<String> {
-        if let Some(why) = self.objection(&state.shape) {
+        if let Some(why) = self.objection(state.shape()) {
             return Err(Usage(why).into());
         }
         let Self { from, saved: SavedPolicy { policy, origin, return_moments, .. } } = self;
@@ -66,7 +66,15 @@ impl InitFrom {
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
         let (parameters, value_moments) = (policy.parameters.clone(), return_moments.clone());
-        state.ppo.begin_with(&state.shape, TrainedPolicy { parameters, observation_moments, value_moments });
+        let trained = TrainedPolicy { parameters, observation_moments, value_moments };
+        state.ppo.begin_with(trained).map_err(|distance| {
+            Usage(format!(
+                "`--init-from {}`: its networks do not act mirrored in mirrored states (they are {:.0} % away from such \
+                 ones), and those of this run must; add --set ppo.symmetry=off",
+                self.from,
+                distance * 100.0
+            ))
+        })?;
         Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }

@@ -156,7 +156,7 @@ fn exported(state: &TrainingState, trained: TrainedPolicy) -> anyhow::Result<Exp
     let (observation, mean, variance) =
         ObservationFacts::from_moments(kind, &trained.observation_moments, config.policy.observation_clip as f32);
     Ok(ExportedPolicy {
-        shape: state.shape.clone(),
+        shape: state.shape().clone(),
         parameters: trained.parameters,
         observation,
         mean,

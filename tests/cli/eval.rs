@@ -3,7 +3,11 @@
 use std::fs;
 
 use crate::support::*;
+use treadmill_config::PpoConfig;
 use treadmill_learner::checkpoint::{encoding, load_file};
+use treadmill_policy::NetworkShape;
+use treadmill_ppo::PpoState;
+use treadmill_runtime::seeds;
 
 #[test]
 fn the_first_and_every_nth_step_are_printed() {
@@ -147,7 +151,9 @@ fn unusable_checkpoints_are_refused_by_name_and_reason() {
         fs::write(&latest, &valid).unwrap();
         load_file(&latest).unwrap()
     };
-    other.shape.hidden = vec![16, 16];
+    let shape = NetworkShape { hidden: vec![16, 16], ..other.shape().clone() };
+    let parameters = vec![0.0; other.ppo.parameters().len()];
+    other.ppo = PpoState::new(shape.into(), parameters, seeds::stream(1, "shuffle", &[]), &PpoConfig::default());
     fs::write(&latest, encoding::encode(&other).unwrap()).unwrap();
     assert_refused(&eval(), 1, &["latest.bundle", "does not fit its network", "parameters"]);
     assert_refused(&resume(), 1, &["latest.bundle", "does not fit its network"]);

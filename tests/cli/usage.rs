@@ -24,8 +24,9 @@ fn invalid_configuration_is_refused_with_key_value_and_allowed_values() {
     let range = train(&["--set", "env.contact_cost_range=[3, 1]"]);
     assert_refused(&range, 2, &["env.contact_cost_range", "[3.0, 1.0]", "the first not above the second"]);
     assert_refused(&train(&["--set", "env.task=humanoid-v3"]), 2, &["env.task", "humanoid-v3", "\"humanoid-v4\""]);
-    let mirrored = train(&["--set", "ppo.symmetry=mirrored", "--set", "env.observation=gymnasium-v5"]);
-    assert_refused(&mirrored, 2, &["`ppo.symmetry`", "\"mirrored\"", "\"compact\"", "\"off\""]);
+    let symmetry = |value: &str| train(&["--set", value, "--set", "policy.hidden=[32, 31]"]);
+    assert_refused(&symmetry("ppo.symmetry=mirrored"), 2, &["`ppo.symmetry`", "\"mirrored\"", "\"auto\", \"off\""]);
+    assert_refused(&symmetry("ppo.symmetry=equivariant"), 2, &["`ppo.symmetry`", "31 units", "\"auto\" or \"off\""]);
     assert_refused(&train(&["--steps", "0"]), 2, &["run.steps", "is 0"]);
     assert_refused(&train(&["--actors", "9"]), 2, &["rollout.actors", "is 9", "rollout.envs, which is 8"]);
     assert_refused(&train(&["--steps", "many"]), 2, &["--steps", "many"]);

@@ -66,7 +66,8 @@ fn largest_error(found: &[f32], expected: &[f32]) -> f32 {
 fn a_gpu_gives_the_means_and_values_of_the_processor() {
     let Some(device) = gpu() else { return };
     let mut random = seeds::stream(1, "cuda", &[]);
-    let parameters = initial_parameters(&shape(), -0.5, &mut random).iter().map(|p| p * 2.0).collect::<Vec<_>>();
+    let parameters =
+        Networks::from(shape()).initial_parameters(-0.5, &mut random).iter().map(|p| p * 2.0).collect::<Vec<_>>();
     let observations = normals(ROWS * 45, &mut random);
     let [there, here] = [&device, &Device::Cpu].map(|device| {
         let policy = Policy::with_pool(shape(), parameters.clone(), pool(), device).unwrap();
@@ -82,7 +83,7 @@ fn a_gpu_gives_the_means_and_values_of_the_processor() {
 fn an_update_on_a_gpu_is_that_of_the_processor() {
     let Some(device) = gpu() else { return };
     let mut random = seeds::stream(2, "cuda", &[]);
-    let parameters = initial_parameters(&shape(), -0.5, &mut random);
+    let parameters = Networks::from(shape()).initial_parameters(-0.5, &mut random);
     let batch = batch(&mut random);
     let config = PpoConfig { batch: ROWS as u32, ..PpoConfig::default() };
     let [there, here] = [&device, &Device::Cpu].map(|device| {

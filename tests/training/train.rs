@@ -149,7 +149,7 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         let output = self::run(folder.path(), &args);
         assert!(output.status.success(), "{preset}: {}", stderr(&output));
         let state = latest(&run);
-        assert_eq!(state.shape.observation, size);
+        assert_eq!(state.shape().observation, size);
         assert!(state.config_toml.contains(&format!("task = \"{task}\"")));
         assert_eq!(state.counters.updates, 6);
         assert!(state.ppo.parameters().iter().all(|parameter| parameter.is_finite()));
@@ -181,18 +181,18 @@ fn training_works_with_the_full_observations_of_gymnasium() {
 }
 
 #[test]
-fn training_with_mirror_images_continues_after_a_resume() {
+fn equivariant_networks_are_the_default_and_continue_after_a_resume() {
     let (folder, run) = folders();
-    let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored", "--actors", "1"]);
+    let output = smoke(folder.path(), &run, &["--actors", "1"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let args = ["train", "--resume", run.to_str().unwrap(), "--steps", "12288", "--json"];
     let resumed = done(folder.path(), &args);
     assert_eq!(last_json(&resumed)["updates"], 24);
-    // One gradient step per minibatch, and mirror images double the number of minibatches.
-    let steps = |run: &std::path::Path| latest(run).counters.gradient_steps;
-    let (plain_folder, plain) = folders();
-    assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288", "--actors", "1"]).status.success());
-    assert_eq!(steps(&run), 2 * steps(&plain));
+    let (dense_folder, dense) = folders();
+    let odd = ["--actors", "1", "--set", "policy.hidden=[32, 31]"];
+    assert!(smoke(dense_folder.path(), &dense, &odd).status.success());
+    let networks = |run: &std::path::Path| latest(run).ppo.networks().clone();
+    assert!(networks(&run).mirror().is_some() && networks(&dense).mirror().is_none());
 }
 
 #[test]

@@ -18,6 +18,13 @@ fn first_state(folder: &Path, name: &str, args: &[&str]) -> (TrainingState, Vec<
     (state, lines)
 }
 
+/// Asserts that the parameters are equal but for the rounding between dense and equivariant networks.
+#[track_caller]
+fn assert_near(found: &[f32], expected: &[f32]) {
+    let apart = found.iter().zip(expected).map(|(found, expected)| (found - expected).abs()).fold(0.0, f32::max);
+    assert!(found.len() == expected.len() && apart < 1e-6, "{apart}");
+}
+
 #[test]
 fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let (folder, run_folder) = folders();
@@ -28,7 +35,7 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let from = [&smoke[..], &["--init-from", "run", "--checkpoint", "latest", "--seed", "5"]].concat();
     let (ours, _) = first_state(folder, "warm", &from);
     let (our_policy, their_policy) = (ours.ppo.trained_policy(), theirs.ppo.trained_policy());
-    assert_eq!(our_policy.parameters, their_policy.parameters);
+    assert_near(&our_policy.parameters, &their_policy.parameters);
     assert_eq!(our_policy.value_moments, their_policy.value_moments);
     assert_eq!(ours.ppo.gradient_steps(), 0);
     assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (0, 0, "warm"));
@@ -43,7 +50,8 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
     let (ours, _) = first_state(folder, "exported", &from);
     let ours = ours.ppo.trained_policy();
-    assert_eq!((&ours.parameters[..], ours.value_moments.unwrap().count), (theirs.ppo.parameters(), 0.0));
+    assert_near(&ours.parameters, &their_policy.parameters);
+    assert_eq!(ours.value_moments.unwrap().count, 0.0);
 
     let train = |args: &[&str]| run(folder, &[&["train", "--preset", "smoke", "--run-dir", "other"], args].concat());
     let parts = ["--init-from run", "policy.hidden"];

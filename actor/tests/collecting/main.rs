@@ -11,7 +11,7 @@ use treadmill_actor::{
     identity::ActorIdentity,
 };
 use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, RandomisationConfig, TaskRegistry};
-use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
+use treadmill_policy::{NetworkShape, Networks, to_safetensors};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 use treadmill_runtime::seeds;
 
@@ -50,7 +50,7 @@ fn randomised(motor_scale: [f64; 2]) -> EnvironmentConfig {
 
 fn policy(observation: usize) -> ActingPolicy {
     let shape = NetworkShape { observation, action: 17, hidden: vec![8], privileged: 0 };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
+    let parameters = Networks::from(shape.clone()).initial_parameters(-0.5, &mut seeds::stream(1, "test", &[]));
     let weights = to_safetensors(&shape, &parameters);
     ActingPolicy::new(&PolicyBundle {
         run: "walk".into(),

@@ -98,14 +98,14 @@ impl Transitions {
 
 #[cfg(test)]
 mod tests {
-    use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
+    use treadmill_policy::{NetworkShape, Networks, to_safetensors};
 
     use super::*;
 
     fn bundle(number: u64) -> PolicyBundle {
         let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8], privileged: 0 };
         let mut random = seeds::stream(number, "test", &[]);
-        let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut random));
+        let weights = to_safetensors(&shape, &Networks::from(shape.clone()).initial_parameters(-0.5, &mut random));
         PolicyBundle {
             run: "run".to_string(),
             version: PolicyVersion::new(1, number),

@@ -23,11 +23,13 @@ choice! {
 }
 
 choice! {
-    /// Use of the symmetry of left and right in an update.
+    /// Use of the symmetry of left and right by the networks.
     Symmetry {
-        /// Unused.
+        /// Equivariant networks where the task and the robot have a mirror image, dense ones elsewhere.
+        Auto = "auto",
+        /// Dense networks.
         Off = "off",
-        /// Adds the mirror image of each transition.
-        Mirrored = "mirrored",
+        /// Networks that act mirrored in mirrored states.
+        Equivariant = "equivariant",
     }
 }

@@ -3,7 +3,7 @@
 use super::ConfigError;
 
 /// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units.
-/// With fewer passes, or without mirror images, robots learn later. A divergence adds up over the hinges, so more of
+/// With fewer passes, or without equivariant networks, robots learn later. A divergence adds up over the hinges, so more of
 /// them allow more of it.
 macro_rules! velocity {
     ($card:literal) => {
@@ -20,7 +20,7 @@ macro_rules! velocity {
              [policy]\ninit_log_std = -1.8\n\
              [ppo]\nepochs = 5\nepochs_min = 2\nminibatch = 2048\ntarget_kl = ",
             $target_kl,
-            "\nsymmetry = \"mirrored\"\n"
+            "\nsymmetry = \"equivariant\"\n"
         )
     };
 }

@@ -98,8 +98,9 @@ section! {
         gae_lambda: f64 = 0.95, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Range around 1 to which the probability ratio is clipped.
         clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
-        /// Whether an update also learns from the mirror image of each transition, with left and right exchanged.
-        symmetry: Symmetry = Symmetry::Off, "\"off\" or \"mirrored\"" => |_| true;
+        /// Whether the networks act mirrored in mirrored states, with left and right exchanged, with half of the parameters:
+        /// "auto" where robot and task have a mirror image and the widths of policy.hidden are even.
+        symmetry: Symmetry = Symmetry::Auto, "\"auto\", \"off\" or \"equivariant\"" => |_| true;
         /// Weight of the value loss.
         value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Weight of the entropy bonus.

@@ -65,8 +65,8 @@ impl Config {
             let why = "false where env.task is \"external\": its actors do not draw from the run's seed";
             return refuse("run.deterministic", "true", why);
         }
-        if self.ppo.symmetry == Symmetry::Mirrored {
-            return refuse("ppo.symmetry", "\"mirrored\"", "\"off\" where env.task is \"external\"");
+        if self.ppo.symmetry == Symmetry::Equivariant {
+            return refuse("ppo.symmetry", "\"equivariant\"", "\"auto\" or \"off\" where env.task is \"external\"");
         }
         match task.known() {
             Some(known) => known
@@ -120,7 +120,7 @@ mod tests {
     fn settings_that_an_external_task_excludes_are_named() {
         let refused = |more: &[&str]| built(&[&["env.task=external"], more].concat()).unwrap_err();
         assert!(refused(&["run.deterministic=true"]).contains("`run.deterministic`"));
-        assert!(refused(&["ppo.symmetry=mirrored"]).contains("`ppo.symmetry`"));
+        assert!(refused(&["ppo.symmetry=equivariant"]).contains("`ppo.symmetry`"));
         assert!(refused(&["task.action_size=3"]).contains("`task.observation_size`"));
         assert!(refused(&["task.observation_size=3", "task.action_size=1"]).contains("task.name"));
         assert!(refused(&["task.name=treadmill/humanoid-v5"]).contains("`task.name`"));

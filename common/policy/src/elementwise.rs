@@ -23,9 +23,9 @@ macro_rules! dispatched {
 }
 
 dispatched! {
-    /// Adds `bias`, `[width]`, to every row of `rows`, `[n, width]`.
-    fn add_bias / add_bias_portable(rows: &mut [f32], bias: &[f32]) {
-        for row in rows.chunks_exact_mut(bias.len()) {
+    /// Adds `bias` to the first columns of every row of `rows`, `[n, width]`.
+    fn add_bias / add_bias_portable(rows: &mut [f32], width: usize, bias: &[f32]) {
+        for row in rows.chunks_exact_mut(width) {
             for (x, b) in row.iter_mut().zip(bias) {
                 *x += *b;
             }
@@ -52,9 +52,7 @@ dispatched! {
         let width = bias_gradient.len();
         for (row, activation) in gradient.chunks_exact_mut(width).zip(activation.chunks_exact(width)) {
             for ((g, h), sum) in row.iter_mut().zip(activation).zip(bias_gradient.iter_mut()) {
-                // The slope is 1 above zero and exp(x) = ELU(x) + 1 below.
-                let slope = if *h > 0.0 { 1.0 } else { *h + 1.0 };
-                *g *= slope;
+                *g *= elu_slope(*h);
                 *sum += *g;
             }
         }
@@ -62,9 +60,45 @@ dispatched! {
 }
 
 dispatched! {
-    /// Adds the column sums of `rows`, `[n, width]`, to `sums`, `[width]`.
-    fn add_column_sums / add_column_sums_portable(rows: &[f32], sums: &mut [f32]) {
-        for row in rows.chunks_exact(sums.len()) {
+    /// Applies ELU to the two halves `a` and `b` of every row, given as `u` and `v` with `a = u + v + bias` and
+    /// `b = u − v + bias`, and replaces them by their sums and differences. Rows are `[n, 2 · half]`, `bias` is `[half]`.
+    fn add_bias_elu_to_halves / add_bias_elu_to_halves_portable(rows: &mut [f32], bias: &[f32]) {
+        for row in rows.chunks_exact_mut(2 * bias.len()) {
+            let (sums, differences) = row.split_at_mut(bias.len());
+            for ((u, v), c) in sums.iter_mut().zip(differences).zip(bias) {
+                let (a, b) = (elu(*u + *c + *v), elu(*u + *c - *v));
+                (*u, *v) = (a + b, a - b);
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// Converts the gradient of the output of [`add_bias_elu_to_halves`] to that of its input, and adds that of the bias.
+    fn elu_backward_from_halves / elu_backward_from_halves_portable(
+        gradient: &mut [f32], activation: &[f32], bias_gradient: &mut [f32]
+    ) {
+        let half = bias_gradient.len();
+        for (row, activation) in gradient.chunks_exact_mut(2 * half).zip(activation.chunks_exact(2 * half)) {
+            let (by_sums, by_differences) = row.split_at_mut(half);
+            let (sums, differences) = activation.split_at(half);
+            let columns = by_sums.iter_mut().zip(by_differences).zip(sums.iter().zip(differences));
+            for (((u, v), (sum, difference)), bias) in columns.zip(bias_gradient.iter_mut()) {
+                // A sum of halves that are both at least −1 is exact enough for the slope.
+                let (a, b) = (0.5 * (sum + difference), 0.5 * (sum - difference));
+                let by_a = (*u + *v) * elu_slope(a);
+                let by_b = (*u - *v) * elu_slope(b);
+                (*u, *v) = (by_a + by_b, by_a - by_b);
+                *bias += *u;
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// Adds the sums of the first columns of `rows`, `[n, width]`, to `sums`.
+    fn add_column_sums / add_column_sums_portable(rows: &[f32], width: usize, sums: &mut [f32]) {
+        for row in rows.chunks_exact(width) {
             for (sum, x) in sums.iter_mut().zip(row) {
                 *sum += *x;
             }
@@ -78,6 +112,12 @@ fn elu(x: f32) -> f32 {
     // Both sides are evaluated so that the choice compiles to a blend, not a branch.
     let below = exp_nonpositive(x) - 1.0;
     if x > 0.0 { x } else { below }
+}
+
+/// Slope of ELU where its output is `h`: 1 above zero, and exp(x) = ELU(x) + 1 below.
+#[inline(always)]
+fn elu_slope(h: f32) -> f32 {
+    if h > 0.0 { 1.0 } else { h + 1.0 }
 }
 
 /// Returns `exp(x)` for `x ≤ 0` within 2e-7; NaN stays NaN. For `x > 0` the result is meaningless.
@@ -141,7 +181,7 @@ mod tests {
         elu_backward(&mut gradient, &[0.5, -0.5, 7.0, -0.75], &mut sums);
         assert_eq!(gradient, [1.0, 1.0, 3.0, 1.0]);
         assert_eq!(sums, [14.0, 22.0]);
-        add_column_sums(&gradient, &mut sums);
+        add_column_sums(&gradient, 2, &mut sums);
         assert_eq!(sums, [18.0, 24.0]);
     }
 
@@ -163,10 +203,10 @@ mod tests {
             let (mut sa, mut sb) = (bias.to_vec(), bias.to_vec());
             elu_backward(&mut ga, &a, &mut sa);
             elu_backward_portable(&mut gb, &b, &mut sb);
-            add_column_sums(&ga, &mut sa);
-            add_column_sums_portable(&gb, &mut sb);
-            add_bias(&mut ga, &sa);
-            add_bias_portable(&mut gb, &sb);
+            add_column_sums(&ga, width, &mut sa);
+            add_column_sums_portable(&gb, width, &mut sb);
+            add_bias(&mut ga, width, &sa);
+            add_bias_portable(&mut gb, width, &sb);
             prop_assert_eq!(ga, gb);
             prop_assert_eq!(sa, sb);
         }

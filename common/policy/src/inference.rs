@@ -5,7 +5,7 @@ use std::sync::Arc;
 use candle_core::{Device, Result, Tensor};
 use rayon::ThreadPool;
 
-use super::{Dense, Mlp, NetworkShape, ParameterError, check_parameters, plain};
+use crate::{Mlp, NetworkShape, Networks, ParameterError, check_parameters, plain};
 
 /// Rows per application of the networks on a GPU; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
@@ -13,11 +13,14 @@ const ROWS_AT_ONCE: usize = 4096;
 /// Networks with their parameters, for evaluation only.
 #[derive(Clone, Debug)]
 pub struct Policy {
-    shape: NetworkShape,
+    networks: Networks,
+    actor: Mlp,
+    critic: Mlp,
     parameters: Vec<f32>,
+    log_std: Vec<f32>,
     /// Threads that share many rows on a CPU.
     pool: Option<Arc<ThreadPool>>,
-    /// Parameters on a GPU.
+    /// Parameters of the dense networks on a GPU.
     on_gpu: Option<Tensor>,
 }
 
@@ -26,9 +29,16 @@ impl Policy {
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
-    pub fn new(shape: NetworkShape, parameters: Vec<f32>) -> std::result::Result<Self, ParameterError> {
-        check_parameters(&shape, &parameters)?;
-        Ok(Self { shape, parameters, pool: None, on_gpu: None })
+    pub fn new(networks: impl Into<Networks>, parameters: Vec<f32>) -> std::result::Result<Self, ParameterError> {
+        let networks = networks.into();
+        let (found, expected) = (parameters.len(), networks.parameter_count());
+        if found != expected {
+            return Err(ParameterError::Count { found, expected });
+        }
+        check_parameters(networks.shape(), &networks.dense(&parameters))?;
+        let (actor, critic, log_std) =
+            (networks.actor(), networks.critic(), networks.log_std(&parameters).into_owned());
+        Ok(Self { networks, actor, critic, parameters, log_std, pool: None, on_gpu: None })
     }
 
     /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
@@ -36,30 +46,25 @@ impl Policy {
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
     pub fn with_pool(
-        shape: NetworkShape,
+        networks: impl Into<Networks>,
         parameters: Vec<f32>,
         pool: Arc<ThreadPool>,
         device: &Device,
     ) -> std::result::Result<Self, ParameterError> {
-        let policy = Self::new(shape, parameters)?;
-        let upload = || Tensor::from_slice(&policy.parameters, policy.parameters.len(), device);
+        let policy = Self::new(networks, parameters)?;
+        let upload = || Tensor::new(&policy.networks.dense(&policy.parameters)[..], device);
         let on_gpu = if device.is_cpu() { None } else { Some(upload()?) };
         Ok(Self { pool: Some(pool), on_gpu, ..policy })
     }
 
     /// Returns the shape of the networks.
     pub fn shape(&self) -> &NetworkShape {
-        &self.shape
-    }
-
-    /// Returns the flat parameter vector.
-    pub fn parameters(&self) -> &[f32] {
-        &self.parameters
+        self.networks.shape()
     }
 
     /// Returns the logarithm of the standard deviation of each action, `[action]`.
     pub fn log_std(&self) -> &[f32] {
-        &self.parameters[self.shape.log_std()]
+        &self.log_std
     }
 
     /// Writes the action means, `[rows, action]`, for normalised `observations`, `[rows, observation]`.
@@ -70,7 +75,7 @@ impl Policy {
     /// # Panics
     /// If a slice does not hold `rows` rows.
     pub fn means(&self, observations: &[f32], rows: usize, means: &mut [f32]) -> Result<()> {
-        self.apply(self.shape.actor(), observations, rows, means)
+        self.apply(&self.actor, observations, rows, means)
     }
 
     /// Returns the critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
@@ -82,19 +87,20 @@ impl Policy {
     /// If `observations` does not hold `rows` rows.
     pub fn values(&self, observations: &[f32], rows: usize) -> Result<Vec<f32>> {
         let mut values = vec![0.0; rows];
-        self.apply(self.shape.critic(), observations, rows, &mut values)?;
+        self.apply(&self.critic, observations, rows, &mut values)?;
         Ok(values)
     }
 
-    fn apply(&self, layers: Vec<Dense>, observations: &[f32], rows: usize, output: &mut [f32]) -> Result<()> {
-        let columns = self.shape.observation;
-        let width = layers.last().map_or(0, |layer| layer.output);
+    fn apply(&self, network: &Mlp, observations: &[f32], rows: usize, output: &mut [f32]) -> Result<()> {
+        let (columns, width) = (self.shape().observation, network.output());
         assert_eq!(observations.len(), rows * columns, "observations do not hold {rows} rows of {columns}");
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
         let Some(parameters) = &self.on_gpu else {
-            Mlp::new(layers).evaluate(&self.parameters, observations, columns, output, self.pool.as_deref());
+            network.evaluate(&self.parameters, observations, columns, output, self.pool.as_deref());
             return Ok(());
         };
+        let is_actor = network.range().start == 0;
+        let layers = if is_actor { self.shape().actor() } else { self.shape().critic() };
         let inputs = observations.chunks(ROWS_AT_ONCE * columns);
         for (input, output) in inputs.zip(output.chunks_mut(ROWS_AT_ONCE * width)) {
             let input = Tensor::from_slice(input, (input.len() / columns, columns), parameters.device())?;
@@ -107,7 +113,6 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::init::initial_parameters;
     use crate::mlp::CHUNK_ROWS;
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
@@ -120,7 +125,8 @@ mod tests {
     }
 
     fn check_agreement(shape: NetworkShape) -> Result<()> {
-        let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+        let parameters =
+            Networks::from(shape.clone()).initial_parameters(-0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let policy = Policy::new(shape.clone(), parameters.clone()).expect("fresh parameters fit");
         assert_eq!(policy.log_std(), [-0.5; 2]);
         for rows in [1, 5, 4 * CHUNK_ROWS + 3] {
@@ -142,7 +148,8 @@ mod tests {
     #[test]
     fn the_number_of_threads_does_not_change_one_bit() {
         let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16], privileged: 0 };
-        let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+        let parameters =
+            Networks::from(shape.clone()).initial_parameters(-0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let rows = 5 * CHUNK_ROWS + 17;
         let observations: Vec<f32> = (0..rows * 9).map(|i| (i as f32 * 0.37).sin() * 3.0).collect();
         let alone = Policy::new(shape.clone(), parameters.clone()).expect("they fit");

@@ -6,28 +6,40 @@
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::{Dense, NetworkShape};
+use crate::{Mlp, Networks, mirror::Parts};
 
 const HIDDEN_GAIN: f64 = std::f64::consts::SQRT_2;
 const LAST_ACTOR_GAIN: f64 = 0.01;
 const LAST_CRITIC_GAIN: f64 = 1.0;
 
-/// Returns initial parameters: orthogonal weights, zero biases, every `log_std` at `init_log_std`.
-pub fn initial_parameters(shape: &NetworkShape, init_log_std: f32, rng: &mut impl Rng) -> Vec<f32> {
-    let mut parameters = vec![0.0; shape.parameter_count()];
-    fill_network(&shape.actor(), LAST_ACTOR_GAIN, &mut parameters, rng);
-    fill_network(&shape.critic(), LAST_CRITIC_GAIN, &mut parameters, rng);
-    parameters[shape.log_std()].fill(init_log_std);
-    super::gaussian::clamp_log_std(&mut parameters[shape.log_std()]);
-    parameters
+impl Networks {
+    /// Returns initial parameters: orthogonal weights, zero biases, every `log_std` at `init_log_std`. The blocks of
+    /// equivariant networks are orthogonal, so that the weights of the equal dense networks are.
+    pub fn initial_parameters(&self, init_log_std: f32, rng: &mut impl Rng) -> Vec<f32> {
+        let mut parameters = vec![0.0; self.parameter_count()];
+        let [actor_sides, critic_sides] = self.sides();
+        fill_network(&self.actor(), &actor_sides, LAST_ACTOR_GAIN, &mut parameters, rng);
+        fill_network(&self.critic(), &critic_sides, LAST_CRITIC_GAIN, &mut parameters, rng);
+        let log_std = &mut parameters[self.log_std_range()];
+        log_std.fill(init_log_std);
+        crate::gaussian::clamp_log_std(log_std);
+        parameters
+    }
 }
 
-fn fill_network(layers: &[Dense], last_gain: f64, parameters: &mut [f32], rng: &mut impl Rng) {
-    for (i, layer) in layers.iter().enumerate() {
-        let gain = if i + 1 == layers.len() { last_gain } else { HIDDEN_GAIN };
-        let weight = orthogonal(layer.output, layer.input, rng);
-        for (target, value) in parameters[layer.weight()].iter_mut().zip(weight) {
-            *target = (value * gain) as f32;
+fn fill_network(network: &Mlp, sides: &[Parts], last_gain: f64, parameters: &mut [f32], rng: &mut impl Rng) {
+    let parameters = &mut parameters[network.range()];
+    for (i, layer) in network.layers().iter().enumerate() {
+        let gain = if i + 1 == network.layers().len() { last_gain } else { HIDDEN_GAIN };
+        // A pair of entries has one weight in place of two.
+        let share = |side: usize, part: usize| sides.get(i + side).map_or(1.0, |parts| parts.share(part));
+        for block in &layer.blocks {
+            let columns = block.input.len();
+            let weight = orthogonal(block.output.len(), columns, rng);
+            for (index, (target, value)) in parameters[block.weight.clone()].iter_mut().zip(weight).enumerate() {
+                let (output, input) = (block.output.start + index / columns, block.input.start + index % columns);
+                *target = (value * gain * share(1, output) * share(0, input)) as f32;
+            }
         }
     }
 }
@@ -64,7 +76,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Dense, NetworkShape};
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
+
+    fn initial_parameters(shape: &NetworkShape, init_log_std: f32, rng: &mut Xoshiro256PlusPlus) -> Vec<f32> {
+        Networks::from(shape.clone()).initial_parameters(init_log_std, rng)
+    }
 
     /// Returns the largest deviation of the Gram matrix of the shorter side from `gain²` times the identity.
     fn misfit(weight: &[f32], layer: &Dense, gain: f64) -> f64 {

@@ -9,6 +9,8 @@
 //! - `init`: orthogonal initialisation.
 //! - `gaussian`: log-probability, sampling and entropy of actions.
 //! - `elementwise`: vectorised loops for biases and ELU.
+//! - `mirror`: [`PolicyMirror`] of observations and actions, even and odd parts.
+//! - `networks`: [`Networks`], dense or equivariant to a mirror, whose parameters are learnt.
 //! - `mlp`: [`Mlp`], forward and backward pass of one network on slices, for CPUs.
 //! - [`plain`]: the same networks from Candle's operations, for GPUs and as the reference of tests.
 //! - `inference`: [`Policy`], which actors evaluate.
@@ -22,9 +24,11 @@ mod elementwise;
 pub mod exported;
 pub mod gaussian;
 mod inference;
-pub mod init;
+mod init;
+mod mirror;
 mod mlp;
 mod moments;
+mod networks;
 pub mod normaliser;
 pub mod onnx;
 pub mod plain;
@@ -34,7 +38,9 @@ mod tensors;
 /// Error of the tensor library, which only networks on a GPU use.
 pub use candle_core::Error as TensorError;
 pub use inference::Policy;
+pub use mirror::{PolicyMirror, Reflection, mirror_indices};
 pub use mlp::{CHUNK_ROWS, Mlp, Tape};
+pub use networks::Networks;
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{
     ParameterError, actor_from_safetensors, actor_to_safetensors, check_parameters, from_safetensors, to_safetensors,

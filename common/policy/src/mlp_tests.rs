@@ -9,17 +9,25 @@ fn products_follow_the_strides() {
     let left = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     let mut product = [0.0; 4];
     let left = Matrix::row_major(&left, 3);
-    multiply([2, 2, 3], left, left.transposed(), &mut product, false);
+    multiply([2, 2, 3], left, left.transposed(), &mut product, 2, false);
     assert_eq!(product, [14.0, 32.0, 32.0, 77.0]);
-    multiply([2, 2, 3], left, left.transposed(), &mut product, true);
+    multiply([2, 2, 3], left, left.transposed(), &mut product, 2, true);
     assert_eq!(product, [28.0, 64.0, 64.0, 154.0]);
+    // The last column of the left matrix and the last two of the product's three; no column gives zeros.
+    let mut product = [9.0; 6];
+    multiply([2, 2, 1], left.from_column(2), left.transposed().from_column(0), &mut product[1..], 3, false);
+    assert_eq!(product, [9.0, 3.0, 12.0, 9.0, 6.0, 24.0]);
+    multiply([2, 2, 0], left, left, &mut product[1..], 3, true);
+    assert_eq!(product, [9.0, 3.0, 12.0, 9.0, 6.0, 24.0]);
+    multiply([2, 2, 0], left, left, &mut product[1..], 3, false);
+    assert_eq!(product, [9.0, 0.0, 0.0, 9.0, 0.0, 0.0]);
 }
 
 #[test]
 #[should_panic(expected = "matrix sizes")]
 fn a_matrix_that_is_too_small_is_refused() {
     let data = [0.0; 5];
-    multiply([2, 1, 3], Matrix::row_major(&data, 3), Matrix::row_major(&data, 1), &mut [0.0; 2], false);
+    multiply([2, 1, 3], Matrix::row_major(&data, 3), Matrix::row_major(&data, 1), &mut [0.0; 2], 1, false);
 }
 
 fn wave(count: usize, step: f64) -> Vec<f32> {

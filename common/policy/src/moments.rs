@@ -124,6 +124,21 @@ impl RunningMoments {
         self.count = total;
     }
 
+    /// Replaces the moments by those of the rows together with their mirror images, and the count by half of theirs. In
+    /// a mirrored row, each entry is a sign times the entry at an index.
+    ///
+    /// # Panics
+    /// If the widths differ.
+    pub fn symmetrise(&mut self, reflection: &[(usize, f32)]) {
+        assert_eq!(reflection.len(), self.mean.len(), "the mirror has another width");
+        let Self { count, mean, m2 } = self.clone();
+        for (entry, (image, sign)) in reflection.iter().enumerate() {
+            let half_apart = 0.5 * (mean[entry] - f64::from(*sign) * mean[*image]);
+            self.mean[entry] = 0.5 * (mean[entry] + f64::from(*sign) * mean[*image]);
+            self.m2[entry] = 0.5 * (m2[entry] + m2[*image]) + count * half_apart * half_apart;
+        }
+    }
+
     /// Returns the population variance of each column; 1 before the first row.
     pub fn variance(&self) -> Vec<f64> {
         let divide = |m2: &f64| if self.count > 0.0 { m2 / self.count } else { 1.0 };

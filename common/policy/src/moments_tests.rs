@@ -176,3 +176,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn symmetric_moments_are_those_of_the_rows_and_their_mirror_images() {
+    let rows: Vec<f32> = (0..300).map(|i| (i as f32 * 0.37).sin() * 3.0 + i as f32 % 3.0).collect();
+    let reflection = [(1, -1.0), (0, -1.0), (2, -1.0)];
+    let images: Vec<f32> =
+        rows.chunks_exact(3).flat_map(|row| reflection.map(|(at, sign): (usize, f32)| sign * row[at])).collect();
+    let (mut found, mut both) = (RunningMoments::new(3), RunningMoments::new(3));
+    found.update(&rows, 3);
+    found.symmetrise(&reflection);
+    both.update(&[rows, images].concat(), 3);
+    assert_eq!(found.count, 100.0);
+    assert!(found.mean[0] == -found.mean[1] && found.mean[2] == 0.0);
+    for i in 0..3 {
+        assert!((found.mean[i] - both.mean[i]).abs() < 1e-9);
+        assert!((found.m2[i] - 0.5 * both.m2[i]).abs() < 1e-9 * both.m2[i]);
+    }
+}

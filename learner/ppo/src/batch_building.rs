@@ -22,7 +22,6 @@ use treadmill_proto::{
 use crate::{
     batch::Batch,
     gae::{self, Advantages, Steps},
-    mirror::BatchMirror,
     plausibility::{self, FragmentNumbers, Implausible},
 };
 
@@ -47,7 +46,7 @@ pub struct RejectedFragment {
 /// Result of [`build_batch`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BuiltBatch {
-    /// Transitions of all plausible fragments; the mirror images follow them.
+    /// Transitions of all plausible fragments.
     pub batch: Batch,
     /// Other fragments, in ascending order.
     pub rejected: Vec<RejectedFragment>,
@@ -56,7 +55,7 @@ pub struct BuiltBatch {
 /// Builds the batch of one update from whole fragments. It equals the batch of the plausible fragments alone.
 ///
 /// `policy` is the newest, which the update improves. The new returns are added to `value_moments` before returns and
-/// values are normalised by them. With a `mirror`, the batch also has the mirror image of every transition.
+/// values are normalised by them.
 ///
 /// # Errors
 /// If the networks cannot be evaluated.
@@ -65,7 +64,6 @@ pub fn build_batch(
     policy: &Policy,
     normaliser: &Normaliser,
     value_moments: &mut RunningMoments,
-    mirror: Option<&BatchMirror>,
     config: &PpoConfig,
 ) -> Result<BuiltBatch> {
     // Before the first return, the units of returns are unknown, so the critic's output is not used.
@@ -79,10 +77,7 @@ pub fn build_batch(
         let batch = builder.build(&fragments)?;
         let found = builder.implausible(&fragments, &batch, value_moments);
         if found.is_empty() {
-            break match mirror {
-                Some(mirror) => builder.with_mirror_images(&fragments, batch, mirror)?,
-                None => batch,
-            };
+            break batch;
         }
         rejected.extend(found.iter().map(|(place, why)| RejectedFragment { index: kept[*place], why: why.clone() }));
         for (place, _) in found.iter().rev() {
@@ -229,30 +224,6 @@ impl BatchBuilder<'_> {
             });
         }
         plausibility::implausible(&parts, self.policy.log_std(), value_moments)
-    }
-
-    /// Appends the mirror image of every transition.
-    fn with_mirror_images(
-        &self,
-        fragments: &[&AcceptedFragment],
-        mut batch: Batch,
-        mirror: &BatchMirror,
-    ) -> Result<Batch> {
-        let mut observations: Vec<f32> =
-            fragments.iter().flat_map(|accepted| mirror.observation.apply(&accepted.fragment.observations)).collect();
-        self.normaliser.apply(&mut observations);
-        let mut images = self.with_actions(observations, mirror.action.apply(&batch.actions))?;
-        // The mirror image of the acting policy takes the mirrored actions with the same probabilities.
-        let claimed = fragments.iter().flat_map(|accepted| &accepted.fragment.log_probs);
-        batch.weights.extend(images.log_probs.iter().zip(claimed).map(|(new, old)| importance_weight(*new, *old)));
-        batch.observations.append(&mut images.observations);
-        batch.actions.append(&mut images.actions);
-        batch.means.append(&mut images.means);
-        batch.log_probs.append(&mut images.log_probs);
-        for plane in [&mut batch.advantages, &mut batch.returns, &mut batch.values] {
-            plane.extend_from_within(..);
-        }
-        Ok(batch)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rand::RngExt;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
-use treadmill_policy::{NetworkShape, init};
+use treadmill_policy::{NetworkShape, Networks};
 
 use super::*;
 
@@ -16,10 +16,14 @@ fn shape() -> NetworkShape {
     NetworkShape { observation: 3, action: 2, hidden: vec![8], privileged: 0 }
 }
 
-fn policy(seed: u64) -> Policy {
-    let parameters = init::initial_parameters(&shape(), -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
+fn parameters(seed: u64) -> Vec<f32> {
+    let initial = Networks::from(shape()).initial_parameters(-0.5, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
     // Initial action means are close to 0; with larger weights they differ between policies.
-    Policy::new(shape(), parameters.iter().map(|p| p * 3.0).collect()).expect("they fit")
+    initial.iter().map(|p| p * 3.0).collect()
+}
+
+fn policy(seed: u64) -> Policy {
+    Policy::new(shape(), parameters(seed)).expect("they fit")
 }
 
 /// Fragment acted by `acting`, with actions at fixed offsets from its means.
@@ -50,14 +54,10 @@ fn fragment(acting: &Policy) -> Fragment {
 }
 
 fn batch_of(acting: &Policy, newest: &Policy, lag: u64) -> Batch {
-    batch_with(None, acting, newest, lag)
-}
-
-fn batch_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy, lag: u64) -> Batch {
     let config = PpoConfig::default();
     let accepted = [AcceptedFragment { fragment: fragment(acting), lag }];
     let normaliser = Normaliser::identity(3, 10.0);
-    let built = build_batch(&accepted, newest, &normaliser, &mut RunningMoments::new(1), mirror, &config);
+    let built = build_batch(&accepted, newest, &normaliser, &mut RunningMoments::new(1), &config);
     let BuiltBatch { batch, rejected } = built.expect("candle runs");
     assert_eq!(rejected, []);
     batch
@@ -136,7 +136,7 @@ fn fragments_together_give_the_numbers_of_each_alone() {
     let moments = RunningMoments { count: 1e9, mean: vec![2.0], m2: vec![9e9] };
     let build = |accepted: &[AcceptedFragment]| {
         let mut moments = moments.clone();
-        build_batch(accepted, &newest, &normaliser, &mut moments, None, &config).expect("candle runs").batch
+        build_batch(accepted, &newest, &normaliser, &mut moments, &config).expect("candle runs").batch
     };
     let accepted = various(&newest, &old);
     let together = build(&accepted);
@@ -166,48 +166,13 @@ fn the_number_of_threads_changes_no_batch() {
     let accepted: Vec<_> = (0..60).flat_map(|_| various(&policy(NEWEST), &policy(OLD))).collect();
     let batches = [1, 2, 5].map(|threads| {
         let pool = std::sync::Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads"));
-        let parameters = policy(NEWEST).parameters().to_vec();
-        let newest = Policy::with_pool(shape(), parameters, pool, &candle_core::Device::Cpu).expect("they fit");
+        let newest = Policy::with_pool(shape(), parameters(NEWEST), pool, &candle_core::Device::Cpu).expect("they fit");
         let mut moments = RunningMoments { count: 10.0, mean: vec![2.0], m2: vec![90.0] };
         let normaliser = Normaliser::identity(3, 10.0);
         let config = PpoConfig::default();
-        (build_batch(&accepted, &newest, &normaliser, &mut moments, None, &config).expect("candle runs"), moments)
+        (build_batch(&accepted, &newest, &normaliser, &mut moments, &config).expect("candle runs"), moments)
     });
     assert!(batches[0].0.batch.len() > 2000);
     assert_eq!(batches[1], batches[0]);
     assert_eq!(batches[2], batches[0]);
-}
-
-#[test]
-fn a_mirror_adds_the_image_of_every_transition() {
-    use crate::mirror::IndexSwap;
-    let mirror = BatchMirror {
-        observation: IndexSwap(vec![(1, -1.0), (0, -1.0), (2, 1.0)]),
-        action: IndexSwap(vec![(1, 1.0), (0, 1.0)]),
-    };
-    let newest = policy(NEWEST);
-    let plain = batch_of(&newest, &newest, 0);
-    let both = batch_with(Some(&mirror), &newest, &newest, 0);
-    let rows = plain.len();
-    assert_eq!((both.len(), both.values.len(), both.weights.len()), (2 * rows, 2 * rows, 2 * rows));
-    for (first, second) in [(&both.advantages, &plain.advantages), (&both.log_probs, &plain.log_probs)] {
-        assert_eq!(first[..rows], second[..]);
-    }
-    assert_eq!(both.advantages[rows..], plain.advantages);
-    assert_eq!(both.returns[rows..], both.returns[..rows]);
-    let mut truncated = 0;
-    for row in 0..rows {
-        let (seen, image) = (&both.observations[row * 3..][..3], &both.observations[(rows + row) * 3..][..3]);
-        assert_eq!(image, [-seen[1], -seen[0], seen[2]]);
-        let (done, other) = (&both.actions[row * 2..][..2], &both.actions[(rows + row) * 2..][..2]);
-        assert_eq!(other, [done[1], done[0]]);
-        let mut mean = [0.0; 2];
-        newest.means(image, 1, &mut mean).expect("candle runs");
-        let log_prob = gaussian::log_probability(other, &mean, newest.log_std());
-        assert!((both.log_probs[rows + row] - log_prob).abs() < 1e-5);
-        let ratio = (log_prob - plain.log_probs[row]).exp();
-        assert!((both.weights[rows + row] - ratio.min(1.0)).abs() < 1e-5);
-        truncated += usize::from(ratio > 1.0);
-    }
-    assert!((1..rows).contains(&truncated), "{truncated} ratios above 1");
 }

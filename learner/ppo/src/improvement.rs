@@ -12,7 +12,7 @@ use crate::{
     plausibility::Implausible,
     state::PpoState,
     trained_policy::TrainedPolicy,
-    update::{Ppo, PpoOptions},
+    update::Ppo,
     update_stats::{UpdateError, UpdateStats},
 };
 
@@ -59,10 +59,9 @@ impl Ppo {
         policy: &Policy,
         accepted: &[AcceptedFragment],
     ) -> candle_core::Result<(BuiltBatch, RunningMoments)> {
-        let PpoOptions { mirror, observation_clip, .. } = &self.options;
-        let normaliser = Normaliser::from_moments(&state.observation_moments, *observation_clip);
+        let normaliser = Normaliser::from_moments(&state.observation_moments, self.options.observation_clip);
         let mut value_moments = state.value_moments.clone();
-        let built = build_batch(accepted, policy, &normaliser, &mut value_moments, mirror.as_ref(), &self.config)?;
+        let built = build_batch(accepted, policy, &normaliser, &mut value_moments, &self.config)?;
         Ok((built, value_moments))
     }
 
@@ -98,7 +97,10 @@ impl Ppo {
         if result.is_ok() {
             state.value_moments = prepared.value_moments;
             let parts: Vec<&[f32]> = accepted.iter().map(|accepted| &accepted.fragment.observations[..]).collect();
-            state.observation_moments.update_parts(&parts, self.options.shape.observation);
+            state.observation_moments.update_parts(&parts, state.networks.shape().observation);
+            if let Some(mirror) = state.networks.mirror() {
+                state.observation_moments.symmetrise(&mirror.observation);
+            }
         }
         Improvement { policy: state.trained_policy(), result, rejected }
     }

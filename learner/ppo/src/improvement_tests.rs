@@ -3,9 +3,10 @@
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, gaussian, init};
+use treadmill_policy::{NetworkShape, Networks, gaussian};
 
 use super::*;
+use crate::PpoOptions;
 
 const STEPS: u32 = 16;
 const ENVS: u32 = 4;
@@ -26,9 +27,9 @@ impl World {
     fn new() -> Self {
         let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8], privileged: 0 };
         let config = PpoConfig { minibatch: 64, epochs: 2, ..PpoConfig::default() };
-        let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
-        let state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
-        let options = PpoOptions::on_cpu(shape, 1).expect("a thread starts");
+        let parameters = Networks::from(shape.clone()).initial_parameters(-0.5, &mut random(PARAMETER_SEED));
+        let state = PpoState::new(shape.clone().into(), parameters, random(SHUFFLE_SEED), &config);
+        let options = PpoOptions::on_cpu(1).expect("a thread starts");
         Self { ppo: Ppo::new(options, &config), state }
     }
 

@@ -17,7 +17,6 @@
 //! - `update_stats`: what an update reports, or why it was undone.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
-//! - [`mirror`]: swaps left and right in observations and actions.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
 //! - [`settings`]: what the rest of the learner asks of the settings.
 //! - `trained_policy`: policy that an update leaves.
@@ -30,7 +29,6 @@ pub mod load_adaptation;
 pub mod loss;
 mod loss_gradient;
 pub mod measures;
-pub mod mirror;
 pub mod optimiser;
 pub mod plausibility;
 pub mod settings;
@@ -46,7 +44,6 @@ pub use batch_building::{AcceptedFragment, BuiltBatch, RejectedFragment, build_b
 pub use improvement::{Improvement, PreparedBatch};
 pub use load_adaptation::LoadAdaptation;
 pub use measures::{adapt_learning_rate, explained_variance};
-pub use mirror::{BatchMirror, IndexSwap};
 pub use plausibility::Implausible;
 pub use settings::BatchSize;
 pub use state::PpoState;

@@ -2,7 +2,7 @@
 
 use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{Mlp, NetworkShape, gaussian};
+use treadmill_policy::{Networks, gaussian};
 
 use crate::batch::{Batch, picked};
 
@@ -19,7 +19,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// With 1,024 rows the standard error of the mean is about 3 % of it, and the learning rate changes at a factor of 2.
 #[derive(Debug)]
 pub(crate) struct PolicyShift {
-    shape: NetworkShape,
+    networks: Networks,
     observations: Vec<f32>,
     old_means: Vec<f32>,
     old_log_std: Vec<f32>,
@@ -27,22 +27,23 @@ pub(crate) struct PolicyShift {
 
 impl PolicyShift {
     /// Measure against the policy that the update starts from, whose means the batch has.
-    pub(crate) fn new(batch: &Batch, shape: &NetworkShape, old_log_std: &[f32]) -> Self {
+    pub(crate) fn new(batch: &Batch, networks: &Networks, old_parameters: &[f32]) -> Self {
+        let shape = networks.shape();
         let rows = spread_rows(batch.len());
         Self {
             observations: picked(&batch.observations, shape.observation, &rows),
             old_means: picked(&batch.means, shape.action, &rows),
-            old_log_std: old_log_std.to_vec(),
-            shape: shape.clone(),
+            old_log_std: networks.log_std(old_parameters).into_owned(),
+            networks: networks.clone(),
         }
     }
 
     /// Returns the Kullback–Leibler divergence from the old policy to that of `parameters` in nats, in closed form.
     pub(crate) fn divergence(&self, parameters: &[f32], pool: &ThreadPool) -> f64 {
         let mut means = vec![0.0; self.old_means.len()];
-        let actor = Mlp::new(self.shape.actor());
-        actor.evaluate(parameters, &self.observations, self.shape.observation, &mut means, Some(pool));
-        gaussian::kl_divergence(&self.old_means, &self.old_log_std, &means, &parameters[self.shape.log_std()])
+        let columns = self.networks.shape().observation;
+        self.networks.actor().evaluate(parameters, &self.observations, columns, &mut means, Some(pool));
+        gaussian::kl_divergence(&self.old_means, &self.old_log_std, &means, &self.networks.log_std(parameters))
     }
 }
 

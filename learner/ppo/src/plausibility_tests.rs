@@ -3,7 +3,7 @@
 use candle_core::{Device, Tensor};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
-use treadmill_policy::{Dense, NetworkShape, Policy, gaussian, init, plain};
+use treadmill_policy::{Dense, NetworkShape, Networks, Policy, gaussian, plain};
 
 use super::*;
 
@@ -163,7 +163,7 @@ fn reversed_means(layers: &[Dense], parameters: &[f32], row: &[f32]) -> Vec<f32>
 fn largest_difference(shape: &NetworkShape, gain: f32, log_std: f32) -> f32 {
     const ROWS: usize = 600;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(0x5e31_645e_38a6_c541);
-    let initial = init::initial_parameters(shape, log_std, &mut random);
+    let initial = Networks::from(shape.clone()).initial_parameters(log_std, &mut random);
     let log_std_range = shape.log_std();
     let scaled = |(i, p): (usize, &f32)| if log_std_range.contains(&i) { *p } else { p * gain };
     let parameters: Vec<f32> = initial.iter().enumerate().map(scaled).collect();

@@ -1,6 +1,7 @@
 //! What the rest of the learner asks of the settings, so that it does not name them.
 
 use treadmill_config::{PpoConfig, Symmetry};
+use treadmill_policy::Networks;
 
 /// Keys of `[ppo]` that cannot change during a run.
 pub const FIXED_KEYS: &[&str] = &["ppo.symmetry"];
@@ -10,9 +11,26 @@ pub fn is_changeable(key: &str) -> bool {
     key.starts_with("ppo.") && !FIXED_KEYS.contains(&key)
 }
 
-/// Returns whether the update needs a [`BatchMirror`](crate::BatchMirror).
-pub fn needs_mirror(config: &PpoConfig) -> bool {
-    config.symmetry != Symmetry::Off
+/// Returns whether the networks are to be equivariant to a mirror: `None` if wherever there is one.
+pub fn wants_mirror(config: &PpoConfig) -> Option<bool> {
+    match config.symmetry {
+        Symmetry::Auto => None,
+        Symmetry::Off => Some(false),
+        Symmetry::Equivariant => Some(true),
+    }
+}
+
+/// Checks that networks are of the kind that `ppo.symmetry` asks for.
+///
+/// # Errors
+/// What they are, and what was asked for.
+pub fn check_symmetry(config: &PpoConfig, networks: &Networks) -> Result<(), String> {
+    let is_equivariant = networks.mirror().is_some();
+    if wants_mirror(config).is_none_or(|wanted| wanted == is_equivariant) {
+        return Ok(());
+    }
+    let (found, asked) = (if is_equivariant { "equivariant" } else { "dense" }, config.symmetry.name());
+    Err(format!("its networks are {found}, but its configuration has ppo.symmetry = \"{asked}\"; begin a new run"))
 }
 
 /// Size of a batch.

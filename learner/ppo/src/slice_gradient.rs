@@ -4,9 +4,11 @@
 //! Chunk `c` adds its gradient to lane `c mod L`, where `L` follows from the number of rows. Each lane processes its
 //! chunks in order, and lanes are summed in order.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{CHUNK_ROWS, Mlp, NetworkShape, Tape};
+use treadmill_policy::{CHUNK_ROWS, Mlp, Networks, Tape};
 
 use crate::{
     batch::Batch,
@@ -27,7 +29,9 @@ pub(crate) struct SliceGradient<'a> {
     /// Normalised advantages, times their weights.
     advantages: &'a [f32],
     config: &'a PpoConfig,
-    shape: &'a NetworkShape,
+    networks: &'a Networks,
+    /// Observations as both networks read them.
+    inputs: Cow<'a, [f32]>,
     actor: Mlp,
     critic: Mlp,
     /// Most partial gradients per network.
@@ -47,21 +51,22 @@ struct Lane {
 }
 
 impl<'a> SliceGradient<'a> {
-    pub(crate) fn new(batch: &'a Batch, advantages: &'a [f32], shape: &'a NetworkShape, config: &'a PpoConfig) -> Self {
-        let (actor, critic) = (Mlp::new(shape.actor()), Mlp::new(shape.critic()));
+    pub(crate) fn new(batch: &'a Batch, advantages: &'a [f32], networks: &'a Networks, config: &'a PpoConfig) -> Self {
+        let (actor, critic) = (networks.actor(), networks.critic());
+        let inputs = critic.inputs(&batch.observations);
         let lane = |network: &Mlp| network.range().len() + CHUNK_ROWS * network.tape_width();
         let lane_bytes = size_of::<f32>() * (lane(&actor) + lane(&critic));
         let lanes_max = LANES_MIN.max(LANE_BYTES_MAX / lane_bytes);
         let (actor_lanes, critic_lanes) = (Vec::new(), Vec::new());
-        Self { batch, advantages, config, shape, actor, critic, lanes_max, actor_lanes, critic_lanes }
+        Self { batch, advantages, config, networks, inputs, actor, critic, lanes_max, actor_lanes, critic_lanes }
     }
 
     /// Computes the flat gradient of the loss over the given rows, on the threads of the pool that calls it. Returns
     /// the loss.
     pub(crate) fn compute(&mut self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> LossSums {
-        let Self { batch, shape, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
-        let log_std = shape.log_std();
-        let terms = LossTerms::new(batch, self.advantages, config, &parameters[log_std.clone()], rows.len());
+        let Self { batch, networks, inputs, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
+        let shape = networks.shape();
+        let terms = LossTerms::new(batch, self.advantages, config, &networks.log_std(parameters), rows.len());
         let lanes = rows.len().div_ceil(CHUNK_ROWS).min(self.lanes_max);
         let chunks_of = |lane: usize| rows.chunks(CHUNK_ROWS).skip(lane).step_by(lanes).enumerate();
         actor_lanes.resize_with(lanes, Lane::default);
@@ -69,7 +74,7 @@ impl<'a> SliceGradient<'a> {
 
         let evaluate = |network: &Mlp, rows: &[u32], tape: &mut Tape| {
             let rows = rows.iter().map(|row| *row as usize);
-            network.gather(&batch.observations, shape.observation, rows, tape);
+            network.gather(inputs, shape.observation, rows, tape);
             network.forward(parameters, tape);
         };
         let actor_lane = |(number, lane): (usize, &mut Lane)| {
@@ -95,10 +100,9 @@ impl<'a> SliceGradient<'a> {
 
         sum_gradients(actor_lanes, &mut gradient[actor.range()]);
         sum_gradients(critic_lanes, &mut gradient[critic.range()]);
-        for (index, target) in gradient[log_std].iter_mut().enumerate() {
-            let sum = actor_lanes.iter().map(|lane| lane.log_std_gradient[index]).sum::<f64>();
-            *target = (sum - config.entropy_coefficient) as f32;
-        }
+        let sum = |action: usize| actor_lanes.iter().map(|lane| lane.log_std_gradient[action]).sum::<f64>();
+        let by_log_std: Vec<f64> = (0..shape.action).map(|action| sum(action) - config.entropy_coefficient).collect();
+        gradient[networks.log_std_range()].copy_from_slice(&networks.fold_log_std(&by_log_std));
         actor_lanes.iter().chain(&*critic_lanes).map(|lane| lane.sums).sum()
     }
 }

@@ -3,7 +3,7 @@
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, gaussian::clamp_log_std, normaliser::RunningMoments};
+use treadmill_policy::{NetworkShape, Networks, gaussian::clamp_log_std, normaliser::RunningMoments};
 
 use crate::{optimiser::OptimiserState, trained_policy::TrainedPolicy};
 
@@ -11,7 +11,9 @@ use crate::{optimiser::OptimiserState, trained_policy::TrainedPolicy};
 /// exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PpoState {
-    /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
+    /// Networks that the parameters belong to.
+    pub(crate) networks: Networks,
+    /// Actor, log standard deviations and critic, in the order of [`Networks`].
     pub(crate) parameters: Vec<f32>,
     pub(crate) optimiser: OptimiserState,
     /// Current learning rate, after adaptation.
@@ -29,29 +31,27 @@ impl PpoState {
     ///
     /// # Panics
     /// If the parameters do not fit the shape.
-    pub fn new(
-        shape: &NetworkShape,
-        mut parameters: Vec<f32>,
-        shuffle: Xoshiro256PlusPlus,
-        config: &PpoConfig,
-    ) -> Self {
-        clamp_log_std(&mut parameters[shape.log_std()]);
+    pub fn new(networks: Networks, mut parameters: Vec<f32>, shuffle: Xoshiro256PlusPlus, config: &PpoConfig) -> Self {
+        clamp_log_std(&mut parameters[networks.log_std_range()]);
         Self {
             optimiser: OptimiserState::new(parameters.len()),
             learning_rate: config.learning_rate,
-            observation_moments: RunningMoments::new(shape.observation),
+            observation_moments: RunningMoments::new(networks.shape().observation),
             value_moments: RunningMoments::new(1),
+            networks,
             parameters,
             shuffle,
         }
     }
 
-    /// Checks that the parts fit networks of this shape.
+    /// Checks that the parts fit the networks.
     ///
     /// # Errors
     /// The first part that does not fit.
-    pub fn check(&self, shape: &NetworkShape) -> Result<(), String> {
-        let count = shape.parameter_count();
+    pub fn check(&self) -> Result<(), String> {
+        let shape = self.shape();
+        Networks::new(shape.clone(), self.networks.mirror().cloned())?;
+        let count = self.networks.parameter_count();
         let lengths = [
             ("parameters", self.parameters.len(), count),
             ("first moments", self.optimiser.first_moment.len(), count),
@@ -66,7 +66,17 @@ impl PpoState {
         }
     }
 
-    /// Returns actor, log standard deviations and critic as one flat vector.
+    /// Returns the networks.
+    pub fn networks(&self) -> &Networks {
+        &self.networks
+    }
+
+    /// Returns the shape of the networks.
+    pub fn shape(&self) -> &NetworkShape {
+        self.networks.shape()
+    }
+
+    /// Returns actor, log standard deviations and critic as one flat vector, in the order of [`Networks`].
     pub fn parameters(&self) -> &[f32] {
         &self.parameters
     }
@@ -89,7 +99,7 @@ impl PpoState {
     /// Returns the policy.
     pub fn trained_policy(&self) -> TrainedPolicy {
         TrainedPolicy {
-            parameters: self.parameters.clone(),
+            parameters: self.networks.dense(&self.parameters).into_owned(),
             observation_moments: self.observation_moments.clone(),
             value_moments: Some(self.value_moments.clone()),
         }
@@ -97,13 +107,21 @@ impl PpoState {
 
     /// Replaces the policy of a new run. Without `value_moments`, the critic learns the scale of returns anew.
     ///
+    /// # Errors
+    /// The distance of the policy's networks from equivariant ones, relative to their norm, if those of the run are
+    /// equivariant and the policy's are not.
+    ///
     /// # Panics
     /// If the parameters do not fit the shape.
-    pub fn begin_with(&mut self, shape: &NetworkShape, policy: TrainedPolicy) {
-        self.parameters = policy.parameters;
-        clamp_log_std(&mut self.parameters[shape.log_std()]);
+    pub fn begin_with(&mut self, policy: TrainedPolicy) -> Result<(), f64> {
+        self.parameters = self.networks.learnt(policy.parameters)?;
+        clamp_log_std(&mut self.parameters[self.networks.log_std_range()]);
         self.observation_moments = policy.observation_moments;
+        if let Some(mirror) = self.networks.mirror() {
+            self.observation_moments.symmetrise(&mirror.observation);
+        }
         self.value_moments = policy.value_moments.unwrap_or_else(|| RunningMoments::new(1));
+        Ok(())
     }
 
     /// Replaces the random stream that shuffles minibatches.

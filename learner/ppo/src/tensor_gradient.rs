@@ -2,7 +2,7 @@
 
 use candle_core::{DType, Device, Result, Tensor, Var};
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NamedTensor, NetworkShape, plain};
+use treadmill_policy::{NamedTensor, Networks, plain};
 
 use crate::{
     batch::Batch,
@@ -12,7 +12,7 @@ use crate::{
 
 /// Batch of one update on a device.
 pub(crate) struct TensorGradient<'a> {
-    shape: &'a NetworkShape,
+    networks: &'a Networks,
     config: &'a PpoConfig,
     observations: Tensor,
     rows: Minibatch,
@@ -23,10 +23,11 @@ impl<'a> TensorGradient<'a> {
     pub(crate) fn upload(
         batch: &Batch,
         advantages: &[f32],
-        shape: &'a NetworkShape,
+        networks: &'a Networks,
         config: &'a PpoConfig,
         device: &Device,
     ) -> Result<Self> {
+        let shape = networks.shape();
         let matrix = |plane: &[f32], width| Tensor::from_slice(plane, (batch.len(), width), device);
         let rows = Minibatch {
             actions: matrix(&batch.actions, shape.action)?,
@@ -34,13 +35,14 @@ impl<'a> TensorGradient<'a> {
             advantages: Tensor::new(advantages, device)?,
             returns: Tensor::new(&batch.returns[..], device)?,
         };
-        Ok(Self { shape, config, observations: matrix(&batch.observations, shape.observation)?, rows })
+        Ok(Self { networks, config, observations: matrix(&batch.observations, shape.observation)?, rows })
     }
 
-    /// Computes the flat gradient of the loss over the given rows. Returns the loss. One transfer brings both from the
+    /// Computes the gradient of the loss over the given rows by the learnt parameters, through the equal dense networks,
+    /// which take fewer operations. Returns the loss. One transfer brings both from the
     /// device.
     pub(crate) fn compute(&self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> Result<LossSums> {
-        let device = self.observations.device();
+        let (device, shape) = (self.observations.device(), self.networks.shape());
         let index = Tensor::new(rows, device)?;
         let part = |plane: &Tensor| plane.index_select(&index, 0);
         let minibatch = Minibatch {
@@ -49,11 +51,12 @@ impl<'a> TensorGradient<'a> {
             advantages: part(&self.rows.advantages)?,
             returns: part(&self.rows.returns)?,
         };
-        let leaves = self.leaves(&Tensor::new(parameters, device)?)?;
-        let (actor, others) = leaves.split_at(2 * self.shape.actor().len());
+        let dense = self.networks.dense(parameters);
+        let leaves = self.leaves(&Tensor::new(&dense[..], device)?)?;
+        let (actor, others) = leaves.split_at(2 * shape.actor().len());
         let (log_std, critic) = others.split_first().expect("log_std follows the actor");
         let observations = part(&self.observations)?;
-        let seen = observations.narrow(1, 0, self.shape.seen_by_actor())?;
+        let seen = observations.narrow(1, 0, shape.seen_by_actor())?;
         let output = Tensor::cat(&[plain::layered(actor, &seen)?, plain::layered(critic, &observations)?], 1)?;
         let loss = ppo_loss(&output, log_std, &minibatch, self.config)?;
 
@@ -64,8 +67,8 @@ impl<'a> TensorGradient<'a> {
         let clipped = is_clipped.to_dtype(DType::F32)?.mean_all()?;
         numbers.push(Tensor::stack(&[&loss.policy, &loss.value, &loss.bounds, &clipped], 0)?);
         let numbers = Tensor::cat(&numbers, 0)?.to_vec1::<f32>()?;
-        let (flat, means) = numbers.split_at(gradient.len());
-        gradient.copy_from_slice(flat);
+        let (flat, means) = numbers.split_at(shape.parameter_count());
+        gradient.copy_from_slice(&self.networks.fold(flat));
         let sum = |index: usize| f64::from(means[index]) * rows.len() as f64;
         Ok(LossSums { policy: sum(0), value: sum(1), bounds: sum(2), clipped: sum(3) })
     }
@@ -76,6 +79,6 @@ impl<'a> TensorGradient<'a> {
             let part = flat.narrow(0, tensor.offset, tensor.len())?;
             Ok(Var::from_tensor(&part.reshape(&tensor.shape[..])?)?.into_inner())
         };
-        self.shape.tensors().iter().map(leaf).collect()
+        self.networks.shape().tensors().iter().map(leaf).collect()
     }
 }

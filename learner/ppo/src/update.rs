@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
-    NetworkShape, ParameterError, Policy,
+    ParameterError, Policy,
     device::Device,
     gaussian::{self, clamp_log_std},
 };
@@ -14,7 +14,6 @@ use crate::{
     batch::{Batch, minibatches, shuffle, weighted_advantages},
     loss_gradient::LossSums,
     measures::{PolicyShift, adapt_learning_rate, explained_variance},
-    mirror::BatchMirror,
     optimiser::{clip_factor, global_norm},
     slice_gradient::SliceGradient,
     state::PpoState,
@@ -25,27 +24,23 @@ use crate::{
 /// What learning needs beside its state.
 #[derive(Clone, Debug)]
 pub struct PpoOptions {
-    /// Shape of the networks.
-    pub shape: NetworkShape,
     /// Device that computes gradients and values.
     pub device: Device,
     /// Threads of the update on a CPU; the results do not depend on their number.
     pub pool: Arc<ThreadPool>,
-    /// Mirror for `ppo.symmetry`.
-    pub mirror: Option<BatchMirror>,
     /// Limit of normalised observations.
     pub observation_clip: f32,
 }
 
 impl PpoOptions {
-    /// Returns options for a CPU, without a mirror.
+    /// Returns options for a CPU.
     ///
     /// # Errors
     /// If the threads cannot be started.
-    pub fn on_cpu(shape: NetworkShape, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+    pub fn on_cpu(threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let builder = ThreadPoolBuilder::new().thread_name(|index| format!("update-{index}"));
         let pool = builder.num_threads(threads).build()?;
-        Ok(Self { shape, device: Device::Cpu, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 })
+        Ok(Self { device: Device::Cpu, pool: Arc::new(pool), observation_clip: 10.0 })
     }
 }
 
@@ -78,8 +73,8 @@ impl Ppo {
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
     pub fn policy(&self, state: &PpoState) -> Result<Policy, ParameterError> {
-        let PpoOptions { shape, device, pool, .. } = &self.options;
-        Policy::with_pool(shape.clone(), state.parameters.clone(), pool.clone(), device)
+        let PpoOptions { device, pool, .. } = &self.options;
+        Policy::with_pool(state.networks.clone(), state.parameters.clone(), pool.clone(), device)
     }
 
     /// Takes `epochs` passes over a batch, in an order drawn from the state's random stream.
@@ -90,10 +85,10 @@ impl Ppo {
         if batch.is_empty() {
             return Err(UpdateError::Empty);
         }
-        if let Some((field, found, expected)) = batch.wrong_length(&self.options.shape) {
+        if let Some((field, found, expected)) = batch.wrong_length(state.networks.shape()) {
             return Err(UpdateError::Length { field, found, expected });
         }
-        if let Some(what) = batch.non_finite(&self.options.shape) {
+        if let Some(what) = batch.non_finite(state.networks.shape()) {
             return Err(UpdateError::NonFinite { what });
         }
         let before = state.clone();
@@ -105,21 +100,22 @@ impl Ppo {
     }
 
     fn run_epochs(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
-        let (PpoOptions { shape, device, pool, .. }, config) = (&self.options, &self.config);
+        let (PpoOptions { device, pool, .. }, config) = (&self.options, &self.config);
+        let networks = &state.networks.clone();
         let advantages = weighted_advantages(batch);
         let mut on_device = match self.is_on_device {
-            true => Some(TensorGradient::upload(batch, &advantages, shape, config, device)?),
+            true => Some(TensorGradient::upload(batch, &advantages, networks, config, device)?),
             false => None,
         };
-        let mut on_slices = SliceGradient::new(batch, &advantages, shape, config);
+        let mut on_slices = SliceGradient::new(batch, &advantages, networks, config);
         let mut compute_gradient = |rows: &[u32], parameters: &[f32], gradient: &mut [f32]| match &mut on_device {
             Some(tensors) => tensors.compute(rows, parameters, gradient).map_err(UpdateError::from),
             None => Ok(on_slices.compute(rows, parameters, gradient)),
         };
 
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
-        let mut gradient = vec![0.0; shape.parameter_count()];
-        let shift = PolicyShift::new(batch, shape, &state.parameters[shape.log_std()]);
+        let mut gradient = vec![0.0; state.parameters.len()];
+        let shift = PolicyShift::new(batch, networks, &state.parameters);
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
@@ -140,7 +136,7 @@ impl Ppo {
             check_finite(stats.approx_kl.is_finite(), "divergence from the old policy")?;
             state.learning_rate = adapt_learning_rate(state.learning_rate, stats.approx_kl, config);
         }
-        stats.finish(&state.parameters[shape.log_std()], state.learning_rate);
+        stats.finish(&networks.log_std(&state.parameters), state.learning_rate);
         Ok(stats)
     }
 
@@ -153,15 +149,14 @@ impl Ppo {
         gradient: &[f32],
         stats: &mut UpdateStats,
     ) -> Result<(), UpdateError> {
-        let PpoState { parameters, optimiser, learning_rate, .. } = state;
-        let log_std = self.options.shape.log_std();
-        stats.add(rows, loss, gaussian::entropy(&parameters[log_std.clone()]));
+        let PpoState { networks, parameters, optimiser, learning_rate, .. } = state;
+        stats.add(rows, loss, gaussian::entropy(&networks.log_std(parameters)));
         check_finite((loss.policy + loss.value + loss.bounds).is_finite(), "loss")?;
         let norm = global_norm(gradient);
         check_finite(norm.is_finite(), "gradient")?;
         stats.grad_norm += rows as f64 * norm;
         optimiser.apply(parameters, gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
-        clamp_log_std(&mut parameters[log_std]);
+        clamp_log_std(&mut parameters[networks.log_std_range()]);
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_policy::gaussian::{LOG_STD_MAX, kl_divergence, log_probability, sample};
-use treadmill_policy::init::initial_parameters;
+use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
 
 use super::*;
 use crate::batch::normalised;
@@ -29,7 +29,7 @@ struct Updater {
 
 impl Updater {
     fn shape(&self) -> &NetworkShape {
-        &self.ppo.options.shape
+        self.state.shape()
     }
 
     fn policy(&self) -> Policy {
@@ -44,12 +44,13 @@ impl Updater {
 }
 
 fn updater(config: &PpoConfig, threads: usize) -> Updater {
-    updater_of(&shape(), config, threads)
+    updater_of(shape().into(), config, threads)
 }
 
-fn updater_of(shape: &NetworkShape, config: &PpoConfig, threads: usize) -> Updater {
-    let options = PpoOptions::on_cpu(shape.clone(), threads).expect("threads start");
-    let state = PpoState::new(shape, initial_parameters(shape, -0.5, &mut rng(1)), rng(1), config);
+fn updater_of(networks: Networks, config: &PpoConfig, threads: usize) -> Updater {
+    let parameters = networks.initial_parameters(-0.5, &mut rng(1));
+    let options = PpoOptions::on_cpu(threads).expect("threads start");
+    let state = PpoState::new(networks, parameters, rng(1), config);
     Updater { ppo: Ppo::new(options, config), state }
 }
 
@@ -80,11 +81,11 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
 
 /// Policy loss and value loss of the whole batch under the updater's parameters, and the gradient of the total.
 fn losses(updater: &Updater, batch: &Batch) -> ([f64; 2], Vec<f32>) {
-    let Ppo { options: PpoOptions { shape, .. }, config, .. } = &updater.ppo;
+    let Updater { ppo: Ppo { config, .. }, state: PpoState { networks, parameters, .. } } = updater;
     let rows: Vec<u32> = (0..batch.len() as u32).collect();
-    let mut gradient = vec![0.0; shape.parameter_count()];
-    let tensors = TensorGradient::upload(batch, &normalised(&batch.advantages), shape, config, &Device::Cpu);
-    let loss = tensors.and_then(|t| t.compute(&rows, &updater.state.parameters, &mut gradient)).expect("candle runs");
+    let mut gradient = vec![0.0; parameters.len()];
+    let tensors = TensorGradient::upload(batch, &normalised(&batch.advantages), networks, config, &Device::Cpu);
+    let loss = tensors.and_then(|t| t.compute(&rows, parameters, &mut gradient)).expect("candle runs");
     ([loss.policy, loss.value].map(|sum| sum / rows.len() as f64), gradient)
 }
 
@@ -113,6 +114,26 @@ fn an_update_lowers_both_losses_and_returns_its_statistics() {
     assert!((stats.std - 0.6).abs() < 0.1);
     assert_eq!(stats.learning_rate, updater.state.learning_rate);
     assert_eq!(updater.state.optimiser.step, 9);
+}
+
+#[test]
+fn equivariant_networks_remain_so_and_learn() {
+    let mirror =
+        PolicyMirror { observation: vec![(1, 1.0), (0, 1.0), (2, -1.0), (3, 1.0)], action: vec![(1, 1.0), (0, 1.0)] };
+    let networks = Networks::new(shape(), Some(mirror)).expect("the mirror fits");
+    let mut updater = updater_of(networks, &PpoConfig { minibatch: 250, ..config() }, 1);
+    let observations = [0.8, -0.5, 0.3, 0.1, -0.5, 0.8, -0.3, 0.1];
+    for i in 0..60 {
+        let batch = batch(&updater, 1000, 100 + i);
+        updater.update(&batch, i).expect("a sound batch");
+        let policy = updater.policy();
+        let mut means = [0.0; 4];
+        policy.means(&observations, 2, &mut means).expect("candle runs");
+        let values = policy.values(&observations, 2).expect("candle runs");
+        assert!((means[0] - means[3]).abs() < 1e-6 && (means[1] - means[2]).abs() < 1e-6, "{means:?}");
+        assert!((values[0] - values[1]).abs() < 1e-6 && policy.log_std()[0] == policy.log_std()[1]);
+        assert!(i < 59 || (means[0] - 0.8).abs() < 0.25 && (means[1] + 0.5).abs() < 0.25, "{means:?}");
+    }
 }
 
 #[test]
@@ -286,9 +307,9 @@ fn batches_that_do_not_fit_are_refused() {
 #[test]
 fn state_that_does_not_fit_is_refused() {
     let mut updater = updater(&config(), 1);
-    assert_eq!(updater.state.check(&shape()), Ok(()));
+    assert_eq!(updater.state.check(), Ok(()));
     updater.state.optimiser = crate::optimiser::OptimiserState::new(3);
-    let why = updater.state.check(&shape()).expect_err("three moments");
+    let why = updater.state.check().expect_err("three moments");
     assert!(why.starts_with("it has 3 first moments, but its network"), "{why}");
     updater.state.parameters.fill(f32::NAN);
     assert!(matches!(updater.ppo.policy(&updater.state), Err(ParameterError::NonFinite { .. })));
@@ -311,7 +332,7 @@ fn updates_on_a_device_equal_those_on_slices() {
 fn check_device(shape: &NetworkShape) {
     // Clipped gradients, clipped ratios, means out of bounds, and an adapted learning rate take part.
     let config = PpoConfig { max_grad_norm: 0.1, entropy_coefficient: 1e-3, bounds_limit: 0.02, ..config() };
-    let mut fused = updater_of(shape, &config, 1);
+    let mut fused = updater_of(shape.clone().into(), &config, 1);
     let mut device = on_device(&fused);
     for update in 0..5 {
         let batch = batch(&fused, 700, 8 + update);

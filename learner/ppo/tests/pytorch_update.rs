@@ -97,8 +97,8 @@ impl UpdateFile {
             values: narrow(&self.batch.values),
         };
         let (config, random) = (&case.config, Xoshiro256PlusPlus::seed_from_u64(case.seed));
-        let mut state = PpoState::new(&shape, narrow(&self.parameters), random, config);
-        let options = PpoOptions::on_cpu(shape, 1).expect("a thread starts");
+        let mut state = PpoState::new(shape.clone().into(), narrow(&self.parameters), random, config);
+        let options = PpoOptions::on_cpu(1).expect("a thread starts");
         let stats = Ppo::new(options, config).update(&mut state, &batch, config.epochs).expect("the batch is sound");
         (state, stats)
     }

@@ -4,7 +4,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
-    NetworkShape, gaussian, init,
+    NetworkShape, Networks, gaussian,
     normaliser::{Normaliser, RunningMoments},
 };
 use treadmill_ppo::{AcceptedFragment, Ppo, PpoOptions, PpoState, build_batch};
@@ -21,9 +21,9 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8], privileged: 0 };
     let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };
     let random = Xoshiro256PlusPlus::seed_from_u64;
-    let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
-    let mut state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
-    let ppo = Ppo::new(PpoOptions::on_cpu(shape, 1).expect("a thread starts"), &config);
+    let parameters = Networks::from(shape.clone()).initial_parameters(-0.5, &mut random(PARAMETER_SEED));
+    let mut state = PpoState::new(shape.into(), parameters, random(SHUFFLE_SEED), &config);
+    let ppo = Ppo::new(PpoOptions::on_cpu(1).expect("a thread starts"), &config);
     let mut noise_random = random(NOISE_SEED);
     let mut value_moments = RunningMoments::new(1);
     let mut explained = 0.0;
@@ -60,7 +60,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         };
         let accepted = [AcceptedFragment { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);
-        let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
+        let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, &config).expect("it fits");
         assert_eq!(built.rejected, []);
         explained = ppo.update(&mut state, &built.batch, config.epochs).expect("finite").explained_variance;
     }

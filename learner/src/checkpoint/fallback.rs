@@ -82,13 +82,15 @@ pub(super) fn bundles(folder: &Path) -> Vec<PathBuf> {
 #[cfg(test)]
 mod tests {
     use treadmill_config::Config;
+    use treadmill_policy::NetworkShape;
     use treadmill_runtime::run_folder::RunFolder;
 
     use super::*;
     use crate::checkpoint::{CheckpointChoice, CheckpointWriter, load};
 
     fn state(updates: u64) -> TrainingState {
-        let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 0, 1, 1);
+        let shape = NetworkShape { observation: 2, action: 1, hidden: vec![256, 128], privileged: 0 };
+        let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", shape.into(), 1);
         state.counters.updates = updates;
         state
     }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
-use treadmill_policy::{NetworkShape, init, normaliser::Normaliser};
-use treadmill_ppo::{AcceptedFragment, PpoState, TrainedPolicy, UpdateStats};
+use treadmill_policy::{NetworkShape, Networks, mirror_indices, normaliser::Normaliser};
+use treadmill_ppo::{AcceptedFragment, PpoState, TrainedPolicy, UpdateStats, settings::check_symmetry};
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
@@ -20,8 +20,6 @@ pub struct TrainingState {
     pub config_toml: String,
     /// Humanoid as MJCF.
     pub model_xml: String,
-    /// Shape of the networks.
-    pub shape: NetworkShape,
     /// Versions that this state descends from; the newest is its own.
     pub lineage: Lineage,
     /// Policy, optimiser and running statistics.
@@ -112,27 +110,17 @@ impl TrainingState {
         self.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
     }
 
-    /// State of a new run.
-    pub fn fresh(
-        run: &str,
-        config: &Config,
-        model_xml: &str,
-        observation: usize,
-        privileged: usize,
-        action: usize,
-        incarnation: u64,
-    ) -> Self {
-        let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
-        let shape = NetworkShape { observation, action, hidden, privileged };
+    /// State of a new run, whose networks have the hidden layers of its configuration.
+    pub fn fresh(run: &str, config: &Config, model_xml: &str, networks: Networks, incarnation: u64) -> Self {
         let seed = config.run.seed;
         let mut random = seeds::stream(seed, "initial-parameters", &[]);
-        let parameters = init::initial_parameters(&shape, config.policy.init_log_std as f32, &mut random);
+        let parameters = networks.initial_parameters(config.policy.init_log_std as f32, &mut random);
         Self {
             run: run.to_string(),
             config_toml: config.to_toml(),
             model_xml: model_xml.to_string(),
             lineage: Lineage::new(incarnation),
-            ppo: PpoState::new(&shape, parameters, seeds::stream(seed, "shuffle", &[]), &config.ppo),
+            ppo: PpoState::new(networks, parameters, seeds::stream(seed, "shuffle", &[]), &config.ppo),
             ledger: Ledger::default(),
             fragment_counts: FragmentCounts::default(),
             episodes: EpisodeWindow::default(),
@@ -141,8 +129,12 @@ impl TrainingState {
             best_is_evaluated: false,
             actor_state: None,
             physics_version: 0,
-            shape,
         }
+    }
+
+    /// Returns the shape of the networks.
+    pub fn shape(&self) -> &NetworkShape {
+        self.ppo.shape()
     }
 
     /// Task of this run, for actors of external tasks.
@@ -151,8 +143,8 @@ impl TrainingState {
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
         let own = Task {
             name: config.task_name(),
-            observation_size: narrow(self.shape.observation)?,
-            action_size: narrow(self.shape.action)?,
+            observation_size: narrow(self.shape().observation)?,
+            action_size: narrow(self.shape().action)?,
             ..Task::default()
         };
         Ok(config.task.known().unwrap_or(own))
@@ -192,19 +184,20 @@ impl TrainingState {
 
     /// Checks that the parts are consistent.
     pub fn check(&self) -> Result<(), String> {
-        self.ppo.check(&self.shape)?;
+        self.ppo.check()?;
         let config = self.config()?;
         if let Some(task) = config.task.known()
             && (task.observation_size as usize, task.action_size as usize)
-                != (self.shape.observation, self.shape.action)
+                != (self.shape().observation, self.shape().action)
         {
-            return Err(format!("its configuration is for {task}, but its network is {:?}", self.shape));
+            return Err(format!("its configuration is for {task}, but its network is {:?}", self.shape()));
         }
+        check_symmetry(&config.ppo, self.ppo.networks())?;
         let hidden: Vec<usize> = config.policy.hidden.iter().map(|width| *width as usize).collect();
-        if hidden != self.shape.hidden {
+        if hidden != self.shape().hidden {
             return Err(format!(
                 "its network has hidden layers {:?}, but its configuration has policy.hidden = {hidden:?}",
-                self.shape.hidden
+                self.shape().hidden
             ));
         }
         self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| error_chain(&why)))
@@ -243,7 +236,7 @@ impl TrainingState {
 
     /// Returns a bundle with the weights of the actor only, which is what actors need.
     pub fn for_actors(&self, policy: &TrainedPolicy, bundle: &PolicyBundle) -> PolicyBundle {
-        let weights = treadmill_policy::actor_to_safetensors(&self.shape, &policy.parameters);
+        let weights = treadmill_policy::actor_to_safetensors(self.shape(), &policy.parameters);
         PolicyBundle { checksum: seeds::checksum(&[&weights]), weights: weights.into(), ..bundle.clone() }
     }
 
@@ -253,14 +246,15 @@ impl TrainingState {
     /// # Errors
     /// If a size is too large.
     pub fn bundle(&self, policy: &TrainedPolicy, config: &Config, config_hash: u64) -> Result<PolicyBundle, String> {
-        let weights = treadmill_policy::to_safetensors(&self.shape, &policy.parameters);
+        let weights = treadmill_policy::to_safetensors(self.shape(), &policy.parameters);
         let normaliser = Normaliser::from_moments(&policy.observation_moments, config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
+        let mirror = self.ppo.networks().mirror();
         Ok(PolicyBundle {
             run: self.run.clone(),
             version: self.lineage.newest(),
-            observation_size: narrow(self.shape.observation)?,
-            action_size: narrow(self.shape.action)?,
+            observation_size: narrow(self.shape().observation)?,
+            action_size: narrow(self.shape().action)?,
             hidden: config.policy.hidden.clone(),
             checksum: seeds::checksum(&[&weights]),
             weights: weights.into(),
@@ -276,7 +270,9 @@ impl TrainingState {
             // Actors of every version know every key that exists; a release that adds one raises this.
             wire_version_min: 0,
             physics_version: self.physics_version,
-            privileged_size: narrow(self.shape.privileged)?,
+            privileged_size: narrow(self.shape().privileged)?,
+            observation_mirror: mirror.map(|mirror| mirror_indices(&mirror.observation)).unwrap_or_default(),
+            action_mirror: mirror.map(|mirror| mirror_indices(&mirror.action)).unwrap_or_default(),
         })
     }
 }

@@ -54,9 +54,8 @@ impl Learning {
         };
         let ppo_options = PpoOptions {
             device: options.device.clone(),
-            mirror: options.mirror.clone(),
             observation_clip: config.policy.observation_clip as f32,
-            ..PpoOptions::on_cpu(state.shape.clone(), threads).map_err(|why| invalid(&why))?
+            ..PpoOptions::on_cpu(threads).map_err(|why| invalid(&why))?
         };
         let ppo = Ppo::new(ppo_options, &config.ppo);
         ppo.policy(&state.ppo).map_err(|why| invalid(&why))?;

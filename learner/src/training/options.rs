@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, atomic::AtomicU64};
 
-use treadmill_ppo::BatchMirror;
 use treadmill_runtime::run_folder::RunFolder;
 
 use crate::{
@@ -21,8 +20,6 @@ pub struct TrainingOptions {
     pub steps: u64,
     /// Device that computes the networks.
     pub device: treadmill_policy::device::Device,
-    /// Mirror for `ppo.symmetry`.
-    pub mirror: Option<BatchMirror>,
     /// Outputs of metrics.
     pub report: ReportOptions,
     /// Actor processes that the supervisor has restarted.

@@ -52,7 +52,7 @@ impl Serving {
         pending: PendingWrites,
     ) -> Result<(Self, StatsFeed), TrainingError> {
         let config_hash = state.config_hash(config);
-        let rule = HorizonRule::new(config, state.shape.observation, state.shape.action);
+        let rule = HorizonRule::new(config, state.shape().observation, state.shape().action);
         let fleet = FleetPlan::new(rule, config.rollout.envs as usize);
         let policy = published(state, &state.ppo.trained_policy(), config, config_hash, fleet.nominal(), true)?;
 
@@ -61,8 +61,8 @@ impl Serving {
         let expected = ExpectedFragment {
             run: state.run.clone(),
             config_hash,
-            observation_size: state.shape.observation as u32,
-            action_size: state.shape.action as u32,
+            observation_size: state.shape().observation as u32,
+            action_size: state.shape().action as u32,
             max_policy_lag: config.policy_lag_allowed().into(),
             physics_version: state.physics_version,
         };
@@ -87,7 +87,7 @@ impl Serving {
 
     /// Adopts a changed configuration.
     pub(super) fn set_config(&mut self, state: &TrainingState, config: &Config) {
-        self.intake.fleet.set_rule(HorizonRule::new(config, state.shape.observation, state.shape.action));
+        self.intake.fleet.set_rule(HorizonRule::new(config, state.shape().observation, state.shape().action));
         self.storage.set_config(config);
         if let Some(evaluation) = &mut self.evaluation {
             evaluation.set_every(config.eval.every_steps, state.counters.env_steps);

@@ -2,14 +2,26 @@
 
 use std::str::FromStr;
 
+use clap::ValueEnum;
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_policy::NetworkShape;
+use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
 use treadmill_runtime::seeds;
+
+use crate::launch::exit_code::Usage;
 
 /// Actions of the humanoid.
 const ACTIONS: usize = 17;
 /// Largest width of a layer or an observation.
 const WIDTH_MAX: usize = 4096;
+
+/// Networks to measure.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum BenchSymmetry {
+    /// Dense networks.
+    Off,
+    /// Networks that act mirrored in mirrored states.
+    Equivariant,
+}
 
 /// Widths of the observation and of each hidden layer, as in `45-256-128`.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +49,18 @@ impl Widths {
     /// Returns networks of these widths with the humanoid's actions.
     pub fn shape(&self) -> NetworkShape {
         NetworkShape { observation: self.0[0], action: ACTIONS, hidden: self.0[1..].to_vec(), privileged: 0 }
+    }
+
+    /// Returns dense networks of these widths, or equivariant ones under a mirror that reverses the order of entries.
+    pub fn networks(&self, symmetry: BenchSymmetry) -> Result<Networks, Usage> {
+        let reversed = |size: usize| (0..size).rev().map(|entry| (entry, 1.0)).collect();
+        let mirror = match symmetry {
+            BenchSymmetry::Off => None,
+            BenchSymmetry::Equivariant => {
+                Some(PolicyMirror { observation: reversed(self.0[0]), action: reversed(ACTIONS) })
+            }
+        };
+        Networks::new(self.shape(), mirror).map_err(|why| Usage(format!("{why}; use --symmetry off")))
     }
 }
 

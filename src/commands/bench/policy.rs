@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use clap::Args;
 use serde_json::json;
-use treadmill_policy::{Policy, init::initial_parameters};
+use treadmill_policy::Policy;
 use treadmill_runtime::{machine, seeds};
 
 use crate::launch::output::say_result;
 
 use super::{
-    network::{self, Widths},
+    network::{self, BenchSymmetry, Widths},
     rounded,
 };
 
@@ -29,6 +29,9 @@ pub struct PolicyArgs {
     /// Widths of the actor's network: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
     network: Widths,
+    /// Dense networks, or networks that act mirrored in mirrored states.
+    #[arg(long, value_enum, default_value = "equivariant")]
+    symmetry: BenchSymmetry,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -36,9 +39,11 @@ pub struct PolicyArgs {
 
 /// Runs the measurement and prints its result.
 pub fn run(args: &PolicyArgs) -> anyhow::Result<()> {
-    let (shape, rows) = (args.network.shape(), args.rows as usize);
+    let (networks, rows) = (args.network.networks(args.symmetry)?, args.rows as usize);
+    let shape = networks.shape().clone();
     let mut random = seeds::stream(1, "bench-policy", &[]);
-    let policy = Policy::new(shape.clone(), initial_parameters(&shape, -0.5, &mut random))?;
+    let parameters = networks.initial_parameters(-0.5, &mut random);
+    let policy = Policy::new(networks, parameters)?;
     let observations = network::normals(rows * shape.observation, &mut random);
     let mut means = vec![0.0; rows * shape.action];
     for _ in 0..WARM_UP {

@@ -5,14 +5,14 @@ use std::time::Instant;
 use clap::Args;
 use serde_json::json;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian, init::initial_parameters};
+use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian};
 use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState};
 use treadmill_runtime::{error_chain, machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory, output::say_result};
 
 use super::{
-    network::{self, Widths},
+    network::{self, BenchSymmetry, Widths},
     rounded,
 };
 
@@ -31,6 +31,9 @@ pub struct UpdateArgs {
     /// Widths of actor and critic networks: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
     network: Widths,
+    /// Dense networks, or networks that act mirrored in mirrored states.
+    #[arg(long, value_enum, default_value = "equivariant")]
+    symmetry: BenchSymmetry,
     /// Device for the networks: cpu, or cuda in a build with that feature.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceKind,
@@ -43,15 +46,15 @@ pub struct UpdateArgs {
 pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     let device = args.device.open().map_err(|why| Usage(error_chain(&why)))?;
-    let shape = args.network.shape();
+    let networks = args.network.networks(args.symmetry)?;
     let minibatch = args.minibatch;
     let config = PpoConfig { minibatch, batch: 4 * minibatch, ..PpoConfig::default() };
     let mut random = seeds::stream(1, "bench-update", &[]);
-    let parameters = initial_parameters(&shape, -0.5, &mut random);
-    let batch = random_batch(&shape, config.batch as usize, &mut random);
+    let parameters = networks.initial_parameters(-0.5, &mut random);
+    let batch = random_batch(networks.shape(), config.batch as usize, &mut random);
     let threads = super::threads(args.threads.into());
-    let mut state = PpoState::new(&shape, parameters, random, &config);
-    let options = PpoOptions { device, ..PpoOptions::on_cpu(shape, threads)? };
+    let mut state = PpoState::new(networks, parameters, random, &config);
+    let options = PpoOptions { device, ..PpoOptions::on_cpu(threads)? };
     let ppo = Ppo::new(options, &config);
     ppo.update(&mut state, &batch, config.epochs)?;
     let begun = Instant::now();

@@ -22,6 +22,8 @@ pub struct Mirror {
     pub velocity: SignedPermutation,
     /// Reflection of an action.
     pub action: SignedPermutation,
+    /// Index of each link's image.
+    pub links: Vec<usize>,
 }
 
 impl Mirror {
@@ -31,9 +33,10 @@ impl Mirror {
     /// A message that names the first hinge or motor without a mirror image.
     pub fn of(model: &Model) -> Result<Self, String> {
         let places = places(model);
+        let names: Vec<&str> = model.hinges.iter().map(|hinge| &*hinge.name).collect();
         let mut hinges = Vec::new();
         for (hinge, (anchor_m, axis)) in model.hinges.iter().zip(&places) {
-            let image = image(&hinge.name, model);
+            let image = image(&hinge.name, &names, model);
             let name = &model.hinges[image].name;
             let (other_m, other_axis) = &places[image];
             let apart_m = (Vector3::new(anchor_m.x, -anchor_m.y, anchor_m.z) - other_m.coords).norm();
@@ -60,17 +63,13 @@ impl Mirror {
         // Position x, y, z, then quaternion w, x, y, z, whose vector part is a pseudo-vector.
         let root_position = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0];
         let root_velocity = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
-        Ok(Self { position: with_root(&root_position, &hinges), velocity: with_root(&root_velocity, &hinges), action })
-    }
-
-    /// Returns the reflection of a [`crate::EnvObservation::Compact`] observation with `size` entries: positions, possibly
-    /// without the first ones, then velocities.
-    #[must_use]
-    pub fn observation(&self, size: usize) -> SignedPermutation {
-        let skipped = self.position.len() + self.velocity.len() - size;
-        let positions = self.position[skipped..].iter().map(|(at, sign)| (at - skipped, *sign));
-        let seen = self.position.len() - skipped;
-        positions.chain(self.velocity.iter().map(|(at, sign)| (seen + at, *sign))).collect()
+        let names: Vec<&str> = model.links.iter().map(|link| &*link.name).collect();
+        Ok(Self {
+            position: with_root(&root_position, &hinges),
+            velocity: with_root(&root_velocity, &hinges),
+            action,
+            links: names.iter().map(|name| image(name, &names, model)).collect(),
+        })
     }
 }
 
@@ -91,9 +90,9 @@ fn places(model: &Model) -> Vec<(Point3<f64>, Vector3<f64>)> {
     of_body.collect()
 }
 
-/// Returns the hinge whose name is that of the other side, or the hinge of this name itself.
-fn image(name: &str, model: &Model) -> usize {
-    let find = |name: &str| model.hinges.iter().position(|hinge| hinge.name == name);
+/// Returns the index of the name of the other side, or that of the name itself.
+fn image(name: &str, names: &[&str], model: &Model) -> usize {
+    let find = |name: &str| names.iter().position(|other| *other == name);
     let swapped = [["left", "right"], ["Left", "Right"], ["LEFT", "RIGHT"]].into_iter().flat_map(|[left, right]| {
         [(left, right), (right, left)].map(|(from, to)| name.contains(from).then(|| name.replacen(from, to, 1)))
     });

@@ -40,6 +40,7 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use crate::config::{EnvConfig, EnvObservation};
 use crate::dynamics::World;
 use crate::model::Model;
+use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
 
@@ -146,6 +147,34 @@ impl Observation {
     #[must_use]
     pub fn terms(&self) -> &[ObservationTerm] {
         &self.terms
+    }
+
+    /// Returns the mirror image of an observation, for a robot with this one. Along x and z, vectors keep their sign;
+    /// moments and angular velocities, which are pseudo-vectors, keep it along y.
+    #[must_use]
+    pub fn mirrored(&self, robot: &Mirror) -> SignedPermutation {
+        const INERTIA: [f32; INERTIA_SIZE] = [1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, 1.0];
+        const SPATIAL: [f32; SPATIAL_SIZE] = [-1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
+        let of_links = |signs: &[f32]| -> SignedPermutation {
+            let world = usize::from(self.has_world);
+            let rows = (0..world).chain(robot.links.iter().map(|link| world + link));
+            rows.flat_map(|row| signs.iter().enumerate().map(move |(at, sign)| (row * signs.len() + at, *sign)))
+                .collect()
+        };
+        let without = |reflection: &SignedPermutation, first: usize| -> SignedPermutation {
+            reflection[first..].iter().map(|(at, sign)| (at - first, *sign)).collect()
+        };
+        let image = |(quantity, range): (Quantity, Range<usize>)| {
+            let of_block = match quantity {
+                Quantity::Position => without(&robot.position, robot.position.len() - range.len()),
+                Quantity::Velocity => robot.velocity.clone(),
+                Quantity::Inertias => of_links(&INERTIA),
+                Quantity::Velocities | Quantity::Contacts => of_links(&SPATIAL),
+                Quantity::Torques => without(&robot.velocity, robot.velocity.len() - range.len()),
+            };
+            of_block.into_iter().map(move |(at, sign)| (range.start + at, sign))
+        };
+        self.blocks().flat_map(image).collect()
     }
 
     /// Returns quantity and position of each block, in order.

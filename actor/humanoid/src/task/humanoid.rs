@@ -5,7 +5,7 @@
 //! position of the centre of mass instead of the torso's.
 
 use super::{ObservationTerm, Step, StepEvaluation, Task};
-use crate::config::{EnvConfig, EnvObservation, EnvTask, EnvironmentConfig};
+use crate::config::{EnvConfig, EnvTask, EnvironmentConfig};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -81,8 +81,7 @@ impl Task for HumanoidTask {
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
-        let size = self.terms().last().map_or(0, |term| term.range.end);
-        (self.config.observation == EnvObservation::Compact).then(|| robot.observation(size))
+        Some(self.observation.mirrored(robot))
     }
 
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {

@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{EnvConfig, HUMANOID_XML, Mirror, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvObservation, HUMANOID_XML, Mirror, Model, Observation, Physics};
 
 use crate::{CONTROL_STEP_S, IDLE, STILL, WEIGHTLESS, advance, humanoid_text as changed, with_settings};
 
@@ -115,12 +115,31 @@ fn a_mirrored_body_has_the_mirrored_motion() {
 
 #[test]
 fn a_mirrored_observation_is_that_of_the_mirrored_body() {
-    let twins = Twins::new(&[]);
-    let state = random_state(&twins.model, &mut Xoshiro256PlusPlus::seed_from_u64(7), 3.0);
-    let seen = |(position, velocity): &(Vec<f64>, Vec<f64>), skipped: usize| [&position[skipped..], velocity].concat();
-    for skipped in [0, 2] {
-        let permutation = twins.mirror.observation(45 + 2 - skipped);
-        assert_eq!(permuted(&seen(&state, skipped), &permutation), seen(&mirrored(&state, &twins.mirror), skipped));
+    let mut twins = Twins::new(&[]);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(7);
+    let mut state = random_state(&twins.model, &mut random, 3.0);
+    // Low enough to touch the ground.
+    state.0[2] = 0.3;
+    twins.set_state(&state);
+    for _ in 0..3 {
+        twins.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4)));
+    }
+    let with_position = EnvConfig { exclude_current_positions_from_observation: false, ..EnvConfig::default() };
+    let kind = |observation| EnvConfig { observation, ..EnvConfig::default() };
+    let configs = [with_position, kind(EnvObservation::GymnasiumV5), kind(EnvObservation::GymnasiumV4)];
+    for (config, size) in configs.iter().zip([47, 348, 376]) {
+        let layout = Observation::new(config, &twins.model);
+        let [body, image] = [&twins.body, &twins.image].map(|physics| {
+            let mut observation = vec![0.0; size];
+            layout.write(physics, &mut observation);
+            observation
+        });
+        let contacts = &body[size - 78..];
+        assert!(size == 47 || contacts.iter().any(|part| part.abs() > 1.0), "it touches the ground");
+        for (entry, (at, sign)) in layout.mirrored(&twins.mirror).iter().enumerate() {
+            let (found, expected) = (image[entry], sign * body[*at]);
+            assert!((found - expected).abs() < 1e-3 * expected.abs().max(1.0), "{entry}: {found} {expected}");
+        }
     }
 }
 

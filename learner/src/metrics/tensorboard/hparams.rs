@@ -129,7 +129,7 @@ mod tests {
     fn values_keep_their_type() {
         let config = Config::default();
         assert_eq!(value(&config, "ppo.gamma"), Kind::Number(0.99));
-        assert_eq!(value(&config, "ppo.symmetry"), Kind::String("off".to_string()));
+        assert_eq!(value(&config, "ppo.symmetry"), Kind::String("auto".to_string()));
         assert_eq!(value(&config, "policy.hidden"), Kind::String("[256, 128]".to_string()));
         assert_eq!(value(&config, "env.terminate_when_unhealthy"), Kind::Bool(true));
     }
