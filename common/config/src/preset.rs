@@ -44,7 +44,7 @@ pub const PRESETS: &[(&str, &str)] = &[
         "smoke",
         "[run]\nsteps = 8192\n[rollout]\nenvs = 8\nactors = 2\nfragment_steps = 64\n\
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
-         [learner]\ntable_every_updates = 4\n[bus]\nstats_every_ms = 500\n",
+         [learner]\ntable_every_updates = 4\nmetrics_every_ms = 0\n[bus]\nstats_every_ms = 500\n",
     ),
     // Robots that follow velocity commands; each needs its model file.
     ("g1", velocity!("g1")),

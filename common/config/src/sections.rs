@@ -145,9 +145,12 @@ section! {
         /// Numbered checkpoints kept beside `latest` and `best`.
         keep_checkpoints: u32 = 3, "0 to 1000" => |v| *v <= 1000;
         /// Updates between two numbered checkpoints.
-        checkpoint_every_updates: u32 = 50, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+        checkpoint_every_updates: u32 = 200, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+        /// Shortest time between two updates whose metrics are logged; 0 logs all, as deterministic runs do. Evaluations and
+        /// the last update are always logged.
+        metrics_every_ms: u32 = 500, "0 to 3600000" => |v| *v <= 3_600_000;
         /// Updates between two outputs of all metrics with `--log-metrics`.
-        table_every_updates: u32 = 10, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+        table_every_updates: u32 = 50, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
     }
 }
 

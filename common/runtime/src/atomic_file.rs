@@ -23,6 +23,42 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
+/// The same without waiting until the name is durable, which takes most of the time: a crash of the machine, but not of this
+/// process, may bring the old file back.
+///
+/// # Errors
+/// As for [`write`].
+pub fn write_quickly(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    match destination(path) {
+        Destination::Stream(mut stream) => stream.write_all(bytes),
+        Destination::File(path) => {
+            with_temporary(&path, |temporary, mut file| {
+                file.write_all(bytes)?;
+                file.sync_data()?;
+                fs::rename(temporary, &path)
+            })?;
+            Ok(())
+        }
+    }
+}
+
+/// Gives the contents of a file that is never written again another name, in place of the file that has it. A crash at any
+/// moment leaves the old file or the new one.
+///
+/// # Errors
+/// The system's error, as of a file system without hard links.
+pub fn link(from: &Path, to: &Path) -> io::Result<()> {
+    with_temporary(to, |temporary, _| {
+        fs::remove_file(temporary)?;
+        fs::hard_link(from, temporary)?;
+        fs::rename(temporary, to)?;
+        // If both names are the same file already, renaming does nothing.
+        let _ = fs::remove_file(temporary);
+        Ok(())
+    })
+    .map(drop)
+}
+
 /// Where a path leads.
 #[derive(Debug)]
 pub enum Destination {
@@ -55,21 +91,25 @@ pub fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Writes a temporary file, which `publish` gives its name.
 fn write_by(path: &Path, bytes: &[u8], publish: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let (temporary, mut file) = create_temporary(folder, &name.to_string_lossy())?;
-    let written = (|| {
+    let folder = with_temporary(path, |temporary, mut file| {
         file.write_all(bytes)?;
         file.sync_all()?;
-        publish(&temporary)?;
-        // The name itself is durable only once the folder is.
-        File::open(folder)?.sync_all()
-    })();
-    if written.is_err() {
+        publish(temporary)
+    })?;
+    // The name itself is durable only once the folder is.
+    File::open(folder)?.sync_all()
+}
+
+/// Calls `publish` with a new temporary file beside `path`, and removes it if that fails. Returns the folder.
+fn with_temporary(path: &Path, publish: impl FnOnce(&Path, File) -> io::Result<()>) -> io::Result<&Path> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+    let (temporary, file) = create_temporary(folder, &name.to_string_lossy())?;
+    publish(&temporary, file).inspect_err(|_| {
         // The first error is the one to report.
         let _ = fs::remove_file(&temporary);
-    }
-    written
+    })?;
+    Ok(folder)
 }
 
 /// Creates a temporary file that nothing else writes.

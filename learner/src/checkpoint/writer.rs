@@ -1,6 +1,10 @@
 //! Writes the checkpoints of one run.
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 use treadmill_runtime::{atomic_file, run_folder::RunFolder};
 use treadmill_store::Store;
@@ -9,6 +13,10 @@ use super::{CheckpointError, TrainingState, encoding, numbered};
 
 /// Name of the newest checkpoint in a folder.
 const LATEST: &str = "latest.bundle";
+/// Name of the best checkpoint in a folder or a store.
+const BEST: &str = "best.bundle";
+/// Shortest time between two names that are durable.
+const NAME_EVERY: Duration = Duration::from_secs(1);
 /// Folder of checkpoints in a store.
 pub(super) const IN_STORE: &str = "checkpoints";
 
@@ -19,6 +27,8 @@ pub struct CheckpointWriter {
     place: Place,
     every_updates: u64,
     keep: usize,
+    /// When the newest checkpoint last had a durable name.
+    named: Option<Instant>,
 }
 
 #[derive(Clone, Debug)]
@@ -30,19 +40,28 @@ enum Place {
 impl CheckpointWriter {
     /// Writer that also writes a numbered checkpoint every `every_updates` updates and keeps the last `keep`.
     pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
-        Self { place: Place::Folder(folder.checkpoints()), every_updates, keep }
+        Self { place: Place::Folder(folder.checkpoints()), every_updates, keep, named: None }
     }
 
     /// The same in a store.
     #[must_use]
     pub fn in_store(store: &Store, every_updates: u64, keep: usize) -> Self {
-        Self { place: Place::Store(store.clone()), every_updates, keep }
+        Self { place: Place::Store(store.clone()), every_updates, keep, named: None }
     }
 
-    /// Writes `latest.bundle`. Returns the encoded state.
-    pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
+    /// Writes `latest.bundle`. Returns the encoded state. At most once a second it waits until the name is durable: a crash
+    /// of the machine may take the run back by a second.
+    pub fn save(&mut self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
         let bytes = encoding::encode(state)?;
-        self.write(LATEST, &bytes)?;
+        let is_due = self.named.is_none_or(|named| named.elapsed() >= NAME_EVERY);
+        match &self.place {
+            Place::Folder(folder) if !is_due => atomic_file::write_quickly(&folder.join(LATEST), &bytes)
+                .map_err(|source| CheckpointError::Write { path: self.place_of(LATEST), source })?,
+            _ => self.write(LATEST, &bytes)?,
+        }
+        if is_due {
+            self.named = Some(Instant::now());
+        }
         Ok(bytes)
     }
 
@@ -69,9 +88,17 @@ impl CheckpointWriter {
         (self.every_updates, self.keep) = (every_updates, keep);
     }
 
+    /// Makes the newest state, which is given encoded, the best one.
+    pub fn save_latest_as_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        match &self.place {
+            Place::Folder(folder) if atomic_file::link(&folder.join(LATEST), &folder.join(BEST)).is_ok() => Ok(()),
+            _ => self.save_best(bytes),
+        }
+    }
+
     /// Writes an encoded state as `best.bundle`.
     pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        self.write("best.bundle", bytes)
+        self.write(BEST, bytes)
     }
 
     fn place_of(&self, name: &str) -> String {

@@ -5,7 +5,7 @@ use treadmill_ppo::AcceptedFragment;
 use super::tensorboard::Histogram;
 
 /// Number of updates per set of histograms: they take a hundred times the space of a scalar.
-pub const EVERY_UPDATES: u64 = 10;
+pub const EVERY_UPDATES: u64 = 50;
 
 /// Most entries of an action with separate histograms; only `actions/all` has the others.
 const NAMED_MAX: usize = 64;

@@ -19,6 +19,7 @@ const CHANGEABLE: &[&str] = &[
     "learner.checkpoint_every_updates",
     "learner.keep_checkpoints",
     "learner.table_every_updates",
+    "learner.metrics_every_ms",
     "learner.undone_max",
 ];
 

@@ -61,6 +61,8 @@ pub(super) struct Reporting {
     simulated_before: u64,
     begun: Instant,
     wall_before_s: f64,
+    /// When an update was last logged.
+    logged: Option<Instant>,
     /// Mean lag of the last batch.
     pub(super) lag_mean: f64,
 }
@@ -92,6 +94,7 @@ impl Reporting {
             simulated_before: state.counters.env_steps_simulated,
             begun: Instant::now(),
             wall_before_s: state.counters.wall_s,
+            logged: None,
             lag_mean: 0.0,
         })
     }
@@ -124,6 +127,18 @@ impl Reporting {
         });
     }
 
+    /// Returns whether the metrics of an update are to be logged.
+    fn is_due(&self, state: &TrainingState, config: &Config, has_evaluation: bool) -> bool {
+        let every = Duration::from_millis(config.learner.metrics_every_ms.into());
+        let Counters { env_steps, updates, .. } = state.counters;
+        let is_shown = histograms::is_due(updates) || updates.is_multiple_of(config.learner.table_every_updates.into());
+        self.logged.is_none_or(|logged| logged.elapsed() >= every)
+            || config.run.deterministic
+            || has_evaluation
+            || is_shown
+            || env_steps >= config.run.steps
+    }
+
     /// Logs a round.
     pub(super) fn log(
         &mut self,
@@ -145,6 +160,7 @@ impl Reporting {
             self.efficiency_meter.mark(Instant::now(), env_steps, serving.waited, learnt, effort, alive.len());
         self.alarms.record_efficiency(self.efficiency, validator.counts.too_old, state.counters.undone_updates, config);
         self.lag_mean = lag.mean;
+        let is_due = self.is_due(state, config, evaluation.is_some());
         let stats = self.stats.newest();
         self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
@@ -152,6 +168,10 @@ impl Reporting {
         if let Some(EvaluationResult { report, .. }) = evaluation {
             self.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
         }
+        if !is_due {
+            return self.background.check();
+        }
+        self.logged = Some(Instant::now());
         let record = UpdateRecord {
             state,
             clip_range: learning.ppo.clip_range(),

@@ -151,7 +151,7 @@ impl Serving {
         let is_best = state.adopt_best_in_training();
         self.storage.save(state)?;
         if is_best {
-            self.storage.save_best(&self.storage.saved)?;
+            self.storage.save_latest_as_best()?;
         }
         self.intake.validator.ledger.mark_durable();
         Ok(())
