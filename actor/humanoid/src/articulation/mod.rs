@@ -14,7 +14,7 @@ mod responses;
 mod structure;
 
 pub(crate) use self::mass_matrix::MassMatrix;
-pub(crate) use self::posture::{BodyMasses, Posture, integrate};
+pub(crate) use self::posture::{BodyMasses, Posture, compose, integrate};
 #[cfg(test)]
 pub(crate) use self::responses::Responses;
 pub(crate) use self::structure::{Coordinate, ROOT_DOFS, ROOT_POSITIONS, Structure};

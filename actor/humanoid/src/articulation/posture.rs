@@ -176,13 +176,7 @@ pub(crate) fn integrate<S: Simd>(from: &[Lanes<S>], velocity: &[Lanes<S>], time_
     let turn = Vec3::new(velocity[3] * half, velocity[4] * half, velocity[5] * half);
     let (sinc, cos) = turn.dot(&turn).sinc_cos_of_root();
     let turn = turn * sinc;
-    let (w, x, y, z) = (from[3], from[4], from[5], from[6]);
-    let product = [
-        w * cos - x * turn.x - y * turn.y - z * turn.z,
-        w * turn.x + x * cos + y * turn.z - z * turn.y,
-        w * turn.y - x * turn.z + y * cos + z * turn.x,
-        w * turn.z + x * turn.y - y * turn.x + z * cos,
-    ];
+    let product = quaternion_product(&from[3..ROOT_POSITIONS], &[cos, turn.x, turn.y, turn.z]);
     // Errors of repeated products would accumulate in the norm.
     let [pw, px, py, pz] = product;
     let norm = (pw * pw + px * px + (py * py + pz * pz)).sqrt();
@@ -192,4 +186,26 @@ pub(crate) fn integrate<S: Simd>(from: &[Lanes<S>], velocity: &[Lanes<S>], time_
     for hinge in ROOT_POSITIONS..from.len() {
         to[hinge] = velocity[hinge - ROOT_POSITIONS + ROOT_DOFS].mul_add(time, from[hinge]);
     }
+}
+
+/// Turns a motion since `start` into the position vector where it ends; the root's place stays relative to that of `start`.
+#[inline(always)]
+pub(crate) fn compose<S: Simd>(start: &[Lanes<S>], moved: &mut [Lanes<S>]) {
+    let rotation = quaternion_product(&start[3..ROOT_POSITIONS], &moved[3..ROOT_POSITIONS]);
+    moved[3..ROOT_POSITIONS].copy_from_slice(&rotation);
+    for (angle, start) in moved.iter_mut().zip(start).skip(ROOT_POSITIONS) {
+        *angle += *start;
+    }
+}
+
+/// Returns the product of two quaternions w, x, y, z.
+#[inline(always)]
+fn quaternion_product<S: Simd>(one: &[Lanes<S>], other: &[Lanes<S>]) -> [Lanes<S>; 4] {
+    let ([w, x, y, z], [a, b, c, d]) = ([one[0], one[1], one[2], one[3]], [other[0], other[1], other[2], other[3]]);
+    [
+        w * a - x * b - y * c - z * d,
+        w * b + x * a + y * d - z * c,
+        w * c - x * d + y * a + z * b,
+        w * d + x * c - y * b + z * a,
+    ]
 }

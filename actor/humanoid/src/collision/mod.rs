@@ -9,6 +9,7 @@ mod field;
 mod model;
 mod queries;
 
+use nalgebra::Vector3;
 use pulp::Simd;
 
 pub(crate) use self::model::{CollisionModel, PairNode};
@@ -56,11 +57,20 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
-    /// Finds all contacts at a posture; `root_m` is the position of O in the world and `worlds` the number of lanes in use.
+    /// Finds all contacts at a posture. O is `moved_m` from `start_m`, one place in the world for each lane in use, whose
+    /// heights are `start_height_m`.
     #[inline(always)]
-    pub(crate) fn find(&mut self, model: &CollisionModel, posture: &Posture<S>, root_m: &Vec3<S>, worlds: usize) {
+    pub(crate) fn find(
+        &mut self,
+        model: &CollisionModel,
+        posture: &Posture<S>,
+        start_m: &[Vector3<f64>],
+        start_height_m: Lanes<S>,
+        moved_m: &Vec3<S>,
+    ) {
         self.contacts.clear();
-        let zero = root_m.z.constant(0.0);
+        let zero = moved_m.z.constant(0.0);
+        let height_m = start_height_m + moved_m.z;
         for (index, shape) in model.shapes.iter().enumerate() {
             let rotation = &posture.rotations[shape.body];
             self.centres_m[index] = posture.origins_m[shape.body] + rotation.times_constant(&shape.centre_m);
@@ -75,31 +85,31 @@ impl<S: Simd> Collisions<S> {
             let near = match pair.second {
                 None if model.is_flat() => {
                     if model.shapes[pair.first].is_round {
-                        self.touch_plane(model, key, pair, root_m);
+                        self.touch_plane(model, key, pair, height_m);
                         continue;
                     }
-                    self.is_low(model, pair, root_m)
+                    self.is_low(model, pair, height_m)
                 }
-                None => self.is_low(model, pair, root_m),
+                None => self.is_low_over_field(model, pair, start_m, moved_m),
                 Some(second) => self.is_near(model, pair, second),
             };
             if near.any() {
-                self.query(model, posture, root_m, key, pair, near, worlds);
+                self.query(model, posture, start_m, moved_m, key, pair, near);
             }
         }
     }
 
     /// Adds the contacts of a sphere or capsule with the plane at height 0.
     #[inline(always)]
-    fn touch_plane(&mut self, model: &CollisionModel, key: u32, pair: &PairNode, root_m: &Vec3<S>) {
+    fn touch_plane(&mut self, model: &CollisionModel, key: u32, pair: &PairNode, height_m: Lanes<S>) {
         let shape = &model.shapes[pair.first];
         let centre = self.centres_m[pair.first];
-        let zero = root_m.z.constant(0.0);
+        let zero = height_m.constant(0.0);
         let normal = Vec3::new(zero, zero, zero.constant(1.0));
         let half = self.halves_m[pair.first];
         let ends = [centre + half, centre - half];
         for (number, point) in ends[..if shape.half_m.is_some() { 2 } else { 1 }].iter().enumerate() {
-            let gap_m = root_m.z + point.z - shape.thickness_m;
+            let gap_m = height_m + point.z - shape.thickness_m;
             if (gap_m - pair.margin_m).less_than(zero).any() {
                 let down = gap_m * 0.5 + shape.thickness_m;
                 let point_m = Vec3::new(point.x, point.y, point.z - down);
@@ -108,20 +118,34 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
+    /// Returns where a shape's bounding sphere reaches below the plane at height 0.
+    #[inline(always)]
+    fn is_low(&self, model: &CollisionModel, pair: &PairNode, height_m: Lanes<S>) -> Mask<S> {
+        let lowest = height_m + self.centres_m[pair.first].z - model.shapes[pair.first].radius_m;
+        lowest.less_than(lowest.constant(pair.margin_m))
+    }
+
     /// Returns where a shape's bounding sphere reaches below the highest point of the ground near it.
     #[inline(always)]
-    fn is_low(&self, model: &CollisionModel, pair: &PairNode, root_m: &Vec3<S>) -> Mask<S> {
-        let (centre, radius_m) = (self.centres_m[pair.first], model.shapes[pair.first].radius_m);
-        let lowest = root_m.z + centre.z - radius_m;
-        let mut highest = lowest.constant(pair.margin_m);
+    fn is_low_over_field(
+        &self,
+        model: &CollisionModel,
+        pair: &PairNode,
+        start_m: &[Vector3<f64>],
+        moved_m: &Vec3<S>,
+    ) -> Mask<S> {
+        let (centre, radius_m) = (*moved_m + self.centres_m[pair.first], model.shapes[pair.first].radius_m);
+        let reach_m = radius_m + pair.margin_m;
+        // No ground reaches lanes without a world.
+        let mut highest = centre.z.constant(-ABSENT_M);
         if let Some(field) = &model.height_field {
-            let (x, y) = (root_m.x + centre.x, root_m.y + centre.y);
-            for lane in 0..S::F64_LANES {
-                let highest_m = field.highest_near_m(x.lane(lane), y.lane(lane), radius_m + pair.margin_m);
-                highest.set_lane(lane, highest_m + pair.margin_m);
+            for (lane, start_m) in start_m.iter().enumerate() {
+                let highest_m =
+                    field.highest_near_m(start_m.x + centre.x.lane(lane), start_m.y + centre.y.lane(lane), reach_m);
+                highest.set_lane(lane, highest_m + reach_m - start_m.z);
             }
         }
-        lowest.less_than(highest)
+        centre.z.less_than(highest)
     }
 
     /// Returns where two shapes may touch: by their bounding spheres, then by their axes if both are round.
@@ -145,22 +169,22 @@ impl<S: Simd> Collisions<S> {
         &mut self,
         model: &CollisionModel,
         posture: &Posture<S>,
-        root_m: &Vec3<S>,
+        start_m: &[Vector3<f64>],
+        moved_m: &Vec3<S>,
         key: u32,
         pair: &PairNode,
         near: Mask<S>,
-        worlds: usize,
     ) {
-        let zero = root_m.z.constant(0.0);
+        let zero = moved_m.z.constant(0.0);
         let asked = near.select(zero.constant(1.0), zero);
         let mut found = [[Found::default(); POINTS_MAX]; LANES_MAX];
         let mut counts = [0; LANES_MAX];
-        for lane in 0..worlds.min(S::F64_LANES) {
+        for (lane, start_m) in start_m.iter().enumerate() {
             if asked.lane(lane) == 0.0 {
                 continue;
             }
             let pose = |body: usize| (posture.rotations[body].lane(lane), posture.origins_m[body].lane(lane));
-            counts[lane] = self.queries.run(model, pair, pose, &root_m.lane(lane), &mut found[lane]);
+            counts[lane] = self.queries.run(model, pair, pose, &(start_m + moved_m.lane(lane)), &mut found[lane]);
         }
         for number in 0..counts.into_iter().max().unwrap_or(0) {
             let vertical = Vec3::new(zero, zero, zero.constant(1.0));
@@ -171,7 +195,7 @@ impl<S: Simd> Collisions<S> {
                 normal: vertical,
                 gap_m: zero.constant(ABSENT_M),
             };
-            for (lane, points) in found.iter().enumerate().take(worlds).filter(|(lane, _)| number < counts[*lane]) {
+            for (lane, points) in found.iter().enumerate().filter(|(lane, _)| number < counts[*lane]) {
                 let point = &points[number];
                 contact.point_m.set_lane(lane, &point.point_m);
                 contact.normal.set_lane(lane, &point.normal);

@@ -29,7 +29,7 @@ pub fn worlds_per_pass() -> usize {
     impl WithSimd for Count {
         type Output = usize;
         fn with_simd<S: Simd>(self, _: S) -> usize {
-            S::F64_LANES
+            S::F32_LANES
         }
     }
     Arch::new().dispatch(Count)

@@ -1,10 +1,11 @@
 //! Exchange between the lanes of a group and its worlds.
 
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, Vector3};
 use pulp::Simd;
 
 use super::group::{Group, Worlds};
 use super::world::{BodyState, ContactLoad, Impulse, World};
+use crate::articulation::ROOT_POSITIONS;
 use crate::collision::CollisionModel;
 use crate::lanes::Lanes;
 
@@ -17,8 +18,9 @@ impl<S: Simd> Group<S> {
     pub(super) fn load(&mut self, worlds: Worlds<'_, '_>) {
         self.worlds = worlds.iter().flatten().count();
         let first = worlds[0].as_deref();
-        for (lane, world) in worlds.iter().take(S::F64_LANES).enumerate() {
+        for (lane, world) in worlds.iter().take(S::F32_LANES).enumerate() {
             let Some(world) = world.as_deref().or(first) else { return };
+            self.start_m[lane] = Vector3::from_column_slice(&world.position[..3]);
             set_lane(&mut self.position, lane, &world.position);
             set_lane(&mut self.velocity, lane, &world.velocity);
             let parameters = &world.parameters;
@@ -44,6 +46,35 @@ impl<S: Simd> Group<S> {
             self.forces.gravity_mps2.set_lane(lane, &parameters.gravity_mps2);
             self.constraints.friction_scale.set_lane(lane, parameters.friction_scale);
         }
+        self.start.copy_from_slice(&self.position);
+        self.moved.fill(Lanes::zero(self.simd));
+        self.moved[3] = Lanes::splat(self.simd, 1.0);
+    }
+
+    /// Adds the motion of the pass to the states, where it is finite, and takes the positions back as the worlds have them: what
+    /// follows from a position must not depend on how it was reached.
+    pub(super) fn store_state(&mut self, worlds: Worlds<'_, '_>) {
+        for (lane, world) in worlds.iter_mut().flatten().enumerate() {
+            let moved = |index: usize| self.moved[index].lane(lane);
+            let position = &mut world.position;
+            let turned = Quaternion::new(position[3], position[4], position[5], position[6])
+                * Quaternion::new(moved(3), moved(4), moved(5), moved(6));
+            let mut numbers = self.moved.iter().chain(&self.velocity);
+            // A turn that is no number of single precision has lost its norm.
+            world.has_failed = !numbers.all(|number| number.lane(lane).abs() < NUMBER_MAX)
+                || !position.iter().all(|number| number.abs() < NUMBER_MAX)
+                || turned.norm_squared() < 0.5;
+            if world.has_failed {
+                continue;
+            }
+            for (index, number) in position.iter_mut().enumerate() {
+                *number += moved(index);
+            }
+            let [x, y, z, w] = turned.normalize().coords.into();
+            position[3..ROOT_POSITIONS].copy_from_slice(&[w, x, y, z]);
+            get_lane(&self.velocity, lane, &mut world.velocity);
+            set_lane(&mut self.position, lane, &world.position);
+        }
     }
 
     pub(super) fn store_bodies(&self, lane: usize, world: &mut World) {
@@ -58,22 +89,19 @@ impl<S: Simd> Group<S> {
         }
     }
 
+    /// Writes what follows from the states, and forces.
     pub(super) fn store(&self, collision: &CollisionModel, worlds: Worlds<'_, '_>) {
         for (lane, world) in worlds.iter_mut().flatten().enumerate() {
-            let mut numbers = self.position.iter().chain(&self.velocity);
-            world.has_failed = !numbers.all(|number| number.lane(lane).abs() < NUMBER_MAX);
             if world.has_failed {
                 continue;
             }
-            get_lane(&self.position, lane, &mut world.position);
-            get_lane(&self.velocity, lane, &mut world.velocity);
             get_lane(&self.torques_nm, lane, &mut world.torques_nm);
             self.store_bodies(lane, world);
             for (impulse, sum) in world.link_impulses.iter_mut().zip(&self.impulses) {
                 *impulse = Impulse { linear_ns: sum.force.lane(lane), angular_nms: sum.moment.lane(lane) };
             }
             world.contacts.clear();
-            let origin_m = self.middle_m.lane(lane);
+            let origin_m = self.start_m[lane] + self.middle_m.lane(lane);
             for load in &self.loads {
                 let force_n = load.force_n.lane(lane);
                 if force_n != Vector3::zeros() {

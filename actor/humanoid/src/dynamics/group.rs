@@ -1,5 +1,6 @@
 //! Worlds of one pass, one per lane of a vector register.
 
+use nalgebra::Vector3;
 use pulp::Simd;
 
 use super::constraints::{Constraints, Load};
@@ -26,6 +27,14 @@ pub(crate) struct Group<S: Simd> {
     pub(super) simd: S,
     /// Number of worlds in this pass.
     pub(super) worlds: usize,
+    /// Root of each world at the start of the pass (m): too far from the world's origin for single precision.
+    pub(super) start_m: [Vector3<f64>; LANES_MAX],
+    /// Position vectors at the start of the pass.
+    pub(super) start: Vec<Lanes<S>>,
+    /// Motion since then: position vectors relative to `start`. Worlds add it in double precision, so that a slow motion is
+    /// not lost in the rounding of the position.
+    pub(super) moved: Vec<Lanes<S>>,
+    /// Present position vectors; the root's place is relative to `start_m`.
     pub(super) position: Vec<Lanes<S>>,
     pub(super) velocity: Vec<Lanes<S>>,
     pub(super) acceleration: Vec<Lanes<S>>,
@@ -41,13 +50,13 @@ pub(crate) struct Group<S: Simd> {
     /// Moment about the centre of mass, and force, of the contacts of each link, × time.
     pub(super) impulses: Vec<Force<S>>,
     pub(super) torques_nm: Vec<Lanes<S>>,
-    /// Root at the middle of the last step (m), to which its contact points are relative.
+    /// Root at the middle of the last step (m, relative to `start_m`), to which its contact points are relative.
     pub(super) middle_m: Vec3<S>,
     /// Contacts of the last step.
     pub(super) loads: Vec<Load<S>>,
     /// Momentum that gravity and contacts leave, about the centre of mass.
     pub(super) momentum: Force<S>,
-    /// Where the centre of mass then is, in the world (m).
+    /// Where the centre of mass then is (m, relative to `start_m`).
     pub(super) centre_m: Vec3<S>,
 }
 
@@ -60,6 +69,9 @@ impl<S: Simd> Group<S> {
         Self {
             simd,
             worlds: 0,
+            start_m: [Vector3::zeros(); LANES_MAX],
+            start: position.clone(),
+            moved: position.clone(),
             middle: position.clone(),
             position,
             velocity: vec![zero; dofs],

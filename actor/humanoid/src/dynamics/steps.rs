@@ -7,7 +7,7 @@ use pulp::{NullaryFnOnce, Simd};
 use super::exchange::set_lane;
 use super::group::{Group, Pass, Worlds};
 use super::momentum::{Momentum, is_free};
-use crate::articulation::{ROOT_DOFS, integrate};
+use crate::articulation::{ROOT_DOFS, compose, integrate};
 use crate::lanes::{Force, Lanes, Vec3};
 
 /// Workspace that steps several worlds of one structure.
@@ -67,7 +67,7 @@ impl<S: Simd> Group<S> {
     fn begin(&mut self, pass: Pass<'_>) {
         let momentum = self.present_momentum(pass);
         self.momentum = momentum.about_centre;
-        self.centre_m = self.root_m() + momentum.centre_m;
+        self.centre_m = momentum.centre_m;
     }
 
     #[inline(always)]
@@ -79,13 +79,9 @@ impl<S: Simd> Group<S> {
     }
 
     #[inline(always)]
-    fn root_m(&self) -> Vec3<S> {
-        Vec3::new(self.position[0], self.position[1], self.position[2])
-    }
-
-    #[inline(always)]
     fn move_to_middle(&mut self, pass: Pass<'_>) {
-        integrate(&self.position, &self.velocity, pass.step_s / 2.0, &mut self.middle);
+        integrate(&self.moved, &self.velocity, pass.step_s / 2.0, &mut self.middle);
+        compose(&self.start, &mut self.middle);
         self.posture.update_kinematics(pass.structure, &self.middle);
         self.posture.update_inertia(&self.masses);
         self.middle_m = Vec3::new(self.middle[0], self.middle[1], self.middle[2]);
@@ -125,7 +121,8 @@ impl<S: Simd> Group<S> {
 
     #[inline(always)]
     fn find_contacts(&mut self, pass: Pass<'_>) {
-        self.collisions.find(pass.collision, &self.posture, &self.middle_m, self.worlds);
+        let start_m = &self.start_m[..self.worlds];
+        self.collisions.find(pass.collision, &self.posture, start_m, self.start[2], &self.middle_m);
     }
 
     #[inline(always)]
@@ -153,8 +150,10 @@ impl<S: Simd> Group<S> {
             *rate = acceleration.mul_add(half, *velocity);
             *velocity = acceleration.mul_add(whole, *velocity);
         }
-        self.middle.copy_from_slice(&self.position);
-        integrate(&self.middle, &self.rates, pass.step_s, &mut self.position);
+        self.middle.copy_from_slice(&self.moved);
+        integrate(&self.middle, &self.rates, pass.step_s, &mut self.moved);
+        self.position.copy_from_slice(&self.moved);
+        compose(&self.start, &mut self.position);
         self.add_impulses(pass);
     }
 
@@ -187,7 +186,7 @@ impl<S: Simd> Group<S> {
         self.centre_m += (before + self.momentum.force) * (zero.constant(pass.step_s / 2.0) / mass);
     }
 
-    /// Computes torques of the motors, and poses and velocities at the end.
+    /// Computes torques of the motors, and corrects the momentum.
     #[inline(always)]
     fn finish(&mut self, pass: Pass<'_>) {
         for (index, (torque_nm, hinge)) in self.torques_nm.iter_mut().zip(&self.forces.hinges).enumerate() {
@@ -197,7 +196,6 @@ impl<S: Simd> Group<S> {
         if is_free(pass.structure) {
             self.restore_momentum(pass);
         }
-        self.place(pass);
     }
 
     /// Corrects the root's state so that momentum and centre of mass are those that gravity and contacts leave.
@@ -217,11 +215,12 @@ impl<S: Simd> Group<S> {
             *rate += change;
         }
         let root_m = self.centre_m - found.centre_m;
-        for (number, part) in self.position.iter_mut().zip([root_m.x, root_m.y, root_m.z]) {
+        for (number, part) in self.moved.iter_mut().zip([root_m.x, root_m.y, root_m.z]) {
             *number = part;
         }
     }
 
+    /// Computes poses and velocities of the bodies.
     #[inline(always)]
     fn place(&mut self, pass: Pass<'_>) {
         let structure = pass.structure;
@@ -244,6 +243,8 @@ impl<S: Simd> Engine for Group<S> {
             self.step(pass, step == 0);
         }
         simd.vectorize(Finish(self, pass));
+        self.store_state(worlds);
+        simd.vectorize(Place(self, pass));
         self.store(pass.collision, worlds);
     }
 

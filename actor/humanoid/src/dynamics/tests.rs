@@ -38,42 +38,48 @@ fn world(model: &Model, structure: &Structure, collision: &CollisionModel, numbe
 }
 
 #[test]
-fn wide_and_single_lanes_agree() {
+fn registers_of_all_widths_agree() {
     for solver in [Solver::GaussSeidel, Solver::Newton] {
-        compare_wide_and_single_lanes(Model { solver, ..humanoid() });
+        compare_widths(Model { solver, ..humanoid() });
     }
 }
 
-fn compare_wide_and_single_lanes(model: Model) {
+fn compare_widths(model: Model) {
     let structure = Structure::new(&model);
-    // Collisions between bodies are found in single precision, so they are left out.
-    let collision = CollisionModel::new(&model, &structure, false);
+    let collision = CollisionModel::new(&model, &structure, true);
     let build = || (0..11).map(|number| world(&model, &structure, &collision, number)).collect::<Vec<_>>();
-    let (mut wide, mut single) = (build(), build());
-    let mut group = Group::new(Scalar, &structure, &collision);
-    let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
-    let mut touched = 0;
-    for step in 0..8 {
-        advance(pass, &mut wide.iter_mut(), 4);
-        for world in &mut single {
-            let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
-            chosen[0] = Some(world);
-            group.advance(pass, &mut chosen, 4);
-        }
-        for (number, (one, other)) in wide.iter().zip(&single).enumerate() {
-            assert!(!one.has_failed && !other.has_failed);
-            let numbers = |world: &World| [&world.position[..], &world.velocity, &world.torques_nm].concat();
-            for (index, (one, other)) in numbers(one).into_iter().zip(numbers(other)).enumerate() {
-                assert!((one - other).abs() < 1e-9, "world {number}, step {step}, number {index}: {one} and {other}");
-            }
-            assert_eq!(one.contacts.len(), other.contacts.len());
-            for (one, other) in one.contacts.iter().zip(&other.contacts) {
-                assert!((one.force_n - other.force_n).norm() < 1e-6 && one.links == other.links);
-            }
-            touched += usize::from(!one.contacts.is_empty());
-        }
+    // Without fused multiply-add, rounding differs: rates of up to 60 rad/s, forces of up to 2000 N.
+    let mut others: Vec<(Box<dyn Engine>, f64)> = vec![(Box::new(Group::new(Scalar, &structure, &collision)), 1.0)];
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        others.push((Box::new(Group::new(simd, &structure, &collision)), 0.0));
     }
-    assert!(touched > 20, "{touched} worlds with contacts; {} lanes", worlds_per_pass());
+    let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
+    for (engine, tolerance) in &mut others {
+        let (mut wide, mut single, mut touched) = (build(), build(), 0);
+        for step in 0..8 {
+            advance(pass, &mut wide.iter_mut(), 4);
+            for world in &mut single {
+                let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
+                chosen[0] = Some(world);
+                engine.advance(pass, &mut chosen, 4);
+            }
+            for (number, (one, other)) in wide.iter().zip(&single).enumerate() {
+                assert!(!one.has_failed && !other.has_failed);
+                let numbers = |world: &World| [&world.position[..], &world.velocity, &world.torques_nm].concat();
+                for (index, (one, other)) in numbers(one).into_iter().zip(numbers(other)).enumerate() {
+                    let off = (one - other).abs();
+                    assert!(off <= 1e-3 * *tolerance, "world {number}, step {step}, number {index}: off by {off}");
+                }
+                assert_eq!(one.contacts.len(), other.contacts.len());
+                for (one, other) in one.contacts.iter().zip(&other.contacts) {
+                    assert!((one.force_n - other.force_n).norm() <= 0.1 * *tolerance && one.links == other.links);
+                }
+                touched += usize::from(!one.contacts.is_empty());
+            }
+        }
+        assert!(touched > 20, "{touched} worlds with contacts; {} lanes", worlds_per_pass());
+    }
 }
 
 #[test]
@@ -108,15 +114,15 @@ impl WithSimd for StepAllThenOne<'_, '_> {
     fn with_simd<S: Simd>(self, simd: S) -> usize {
         let Self(pass, worlds) = self;
         let mut group = Group::new(simd, pass.structure, pass.collision);
-        for count in [S::F64_LANES, 1] {
+        for count in [S::F32_LANES, 1] {
             let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
             for (place, world) in chosen.iter_mut().zip(worlds.iter_mut().take(count)) {
                 *place = Some(world);
             }
             group.advance(pass, &mut chosen, 4);
         }
-        let differs = |lane: &usize| group.position.iter().any(|number| number.lane(*lane) != number.lane(0));
-        (0..S::F64_LANES).filter(differs).count()
+        let differs = |lane: &usize| group.moved.iter().any(|number| number.lane(*lane) != number.lane(0));
+        (0..S::F32_LANES).filter(differs).count()
     }
 }
 
@@ -145,7 +151,8 @@ fn responses_equal_mujocos() {
         11.7844993, 10.5708906, 5.20196316, 4.10890261, 42.0359167, 9.90118005, 16.7388075, 4.10890241, 42.0299786,
         9.77813119, 16.6012814, 11.9656342, 15.9321985, 23.6091492, 11.9636197, 15.9361149, 23.6101558,
     ];
-    let close = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-6;
+    // Sums over the whole tree in single precision.
+    let close = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-5;
     assert_eq!((responses.links.len(), responses.dofs.len()), (13, 23));
     for (link, (found, wanted)) in responses.links.iter().zip(links).enumerate() {
         assert!(close(*found, wanted), "link {link}: {found} instead of {wanted}");

@@ -1,7 +1,8 @@
-//! Numbers of several worlds side by side: one world per lane of a vector register.
+//! Numbers of several worlds side by side: one world per lane of a vector register, in single precision. What needs more is
+//! outside: the worlds' states, to which a pass adds its motion.
 //!
 //! Every operation acts on each lane by itself, so a world's numbers do not depend on its lane or on its neighbours. `pulp`
-//! selects the widest registers of the machine: AVX-512 (8 lanes), AVX2 (4), NEON (2), or none (1).
+//! selects the widest registers of the machine: AVX-512 (16 lanes), AVX2 (8), NEON (4), or none (1).
 
 /// Implements an operator that acts on each field by itself.
 macro_rules! fieldwise {
@@ -27,26 +28,26 @@ pub(crate) use linear::{Mat3, Vec3};
 pub(crate) use spatial::{Force, Inertia, Motion};
 
 /// Most lanes of any machine.
-pub(crate) const LANES_MAX: usize = 8;
+pub(crate) const LANES_MAX: usize = 16;
 
 /// One number per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<S: Simd> {
     simd: S,
-    numbers: S::f64s,
+    numbers: S::f32s,
 }
 
 /// One truth value per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mask<S: Simd> {
     simd: S,
-    values: S::m64s,
+    values: S::m32s,
 }
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn splat(simd: S, number: f64) -> Self {
-        Self { simd, numbers: simd.splat_f64s(number) }
+        Self { simd, numbers: simd.splat_f32s(number as f32) }
     }
 
     #[inline(always)]
@@ -62,18 +63,18 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> f64 {
-        bytemuck::cast_slice::<S::f64s, f64>(std::slice::from_ref(&self.numbers))[lane]
+        f64::from(bytemuck::cast_slice::<S::f32s, f32>(std::slice::from_ref(&self.numbers))[lane])
     }
 
     #[inline(always)]
     pub(crate) fn set_lane(&mut self, lane: usize, number: f64) {
-        bytemuck::cast_slice_mut::<S::f64s, f64>(std::slice::from_mut(&mut self.numbers))[lane] = number;
+        bytemuck::cast_slice_mut::<S::f32s, f32>(std::slice::from_mut(&mut self.numbers))[lane] = number as f32;
     }
 
     /// Returns `self * factor + term`, rounded once where the machine can.
     #[inline(always)]
     pub(crate) fn mul_add(self, factor: Self, term: Self) -> Self {
-        self.with(self.simd.mul_add_e_f64s(self.numbers, factor.numbers, term.numbers))
+        self.with(self.simd.mul_add_e_f32s(self.numbers, factor.numbers, term.numbers))
     }
 
     /// Returns `term - self * factor`, rounded once where the machine can.
@@ -84,38 +85,38 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
-        self.with(self.simd.sqrt_f64s(self.numbers))
+        self.with(self.simd.sqrt_f32s(self.numbers))
     }
 
     #[inline(always)]
     pub(crate) fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.numbers))
+        self.with(self.simd.abs_f32s(self.numbers))
     }
 
     /// Returns the greater number of each lane.
     #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
-        self.with(self.simd.max_f64s(self.numbers, other.numbers))
+        self.with(self.simd.max_f32s(self.numbers, other.numbers))
     }
 
     /// Returns the smaller number of each lane.
     #[inline(always)]
     pub(crate) fn min(self, other: Self) -> Self {
-        self.with(self.simd.min_f64s(self.numbers, other.numbers))
+        self.with(self.simd.min_f32s(self.numbers, other.numbers))
     }
 
     #[inline(always)]
     pub(crate) fn less_than(self, other: Self) -> Mask<S> {
-        Mask { simd: self.simd, values: self.simd.less_than_f64s(self.numbers, other.numbers) }
+        Mask { simd: self.simd, values: self.simd.less_than_f32s(self.numbers, other.numbers) }
     }
 
     #[inline(always)]
     pub(crate) fn equals(self, other: Self) -> Mask<S> {
-        Mask { simd: self.simd, values: self.simd.equal_f64s(self.numbers, other.numbers) }
+        Mask { simd: self.simd, values: self.simd.equal_f32s(self.numbers, other.numbers) }
     }
 
     #[inline(always)]
-    fn with(self, numbers: S::f64s) -> Self {
+    fn with(self, numbers: S::f32s) -> Self {
         Self { simd: self.simd, numbers }
     }
 }
@@ -124,7 +125,7 @@ impl<S: Simd> Mask<S> {
     /// Returns `yes` in the lanes where the mask is true and `no` in the others.
     #[inline(always)]
     pub(crate) fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
-        yes.with(self.simd.select_f64s(self.values, yes.numbers, no.numbers))
+        yes.with(self.simd.select_f32s(self.values, yes.numbers, no.numbers))
     }
 
     /// Returns the number where the mask is true and 0 elsewhere.
@@ -135,18 +136,18 @@ impl<S: Simd> Mask<S> {
 
     #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {
-        Self { simd: self.simd, values: self.simd.and_m64s(self.values, other.values) }
+        Self { simd: self.simd, values: self.simd.and_m32s(self.values, other.values) }
     }
 
     #[inline(always)]
     pub(crate) fn or(self, other: Self) -> Self {
-        Self { simd: self.simd, values: self.simd.or_m64s(self.values, other.values) }
+        Self { simd: self.simd, values: self.simd.or_m32s(self.values, other.values) }
     }
 
     /// Returns whether the mask is true in any lane.
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.simd.first_true_m64s(self.values) < S::F64_LANES
+        self.simd.first_true_m32s(self.values) < S::F32_LANES
     }
 }
 
@@ -164,22 +165,22 @@ macro_rules! operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
-                self.with(self.simd.$function(self.numbers, self.simd.splat_f64s(other)))
+                self.with(self.simd.$function(self.numbers, self.simd.splat_f32s(other as f32)))
             }
         }
     };
 }
 
-operator!(Add, add, add_f64s);
-operator!(Sub, sub, sub_f64s);
-operator!(Mul, mul, mul_f64s);
-operator!(Div, div, div_f64s);
+operator!(Add, add, add_f32s);
+operator!(Sub, sub, sub_f32s);
+operator!(Mul, mul, mul_f32s);
+operator!(Div, div, div_f32s);
 
 impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.with(self.simd.neg_f64s(self.numbers))
+        self.with(self.simd.neg_f32s(self.numbers))
     }
 }
 

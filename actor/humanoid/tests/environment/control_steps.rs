@@ -56,9 +56,9 @@ fn speeds_are_per_second() {
         let mut observation = vec![0.0; environment.observation_size()];
         environment.step(&[0.0; 17], &mut observation);
         let info = environment.info().unwrap();
-        assert!((info.x_velocity_mps - 3.0).abs() < 1e-6, "{control_step_s} s: {info:?}");
-        assert!((info.y_velocity_mps + 2.0).abs() < 1e-6, "{control_step_s} s: {info:?}");
-        assert!((info.reward_forward - 3.75).abs() < 1e-6);
+        assert!((info.x_velocity_mps - 3.0).abs() < 4e-6, "{control_step_s} s: {info:?}");
+        assert!((info.y_velocity_mps + 2.0).abs() < 4e-6, "{control_step_s} s: {info:?}");
+        assert!((info.reward_forward - 3.75).abs() < 5e-6);
     }
 }
 

@@ -336,5 +336,5 @@ fn a_body_may_have_many_skew_hinges() {
     });
     let [parent, child] = [1, 2].map(|body| physics.body_motion(body).pose.rotation);
     let found = parent.inverse() * child;
-    assert!(found.angle_to(&turned) < 1e-12, "{found} instead of {turned}");
+    assert!(found.angle_to(&turned) < 2e-7, "{found} instead of {turned}");
 }

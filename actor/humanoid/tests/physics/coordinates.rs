@@ -34,7 +34,8 @@ proptest! {
         // The root's body has the same motion; its angular velocity is set in the root's axes.
         let root = physics.body_motion(0);
         let spin = root.pose.rotation * Vector3::new(velocity[3], velocity[4], velocity[5]);
-        prop_assert!((root.angular_radps - spin).norm() < 1e-12);
+        // Bodies have single precision: up to 17 rad/s.
+        prop_assert!((root.angular_radps - spin).norm() < 1e-5);
         prop_assert!((root.pose.translation.vector - Vector3::from(place)).norm() < 1e-12);
         prop_assert!(physics.limit_overshoot_rad() < 1e-12);
     }
@@ -52,7 +53,7 @@ fn the_root_velocity_is_that_of_its_frame_not_its_centre_of_mass() {
     // At 2 rad/s forward, a centre of mass d above the frame moves forward at 2d.
     let expected = 1.0 + 2.0 * torso.centre_of_mass_m.z;
     assert!(torso.centre_of_mass_m.z.abs() > 0.01);
-    assert!((motion.linear_mps.x - expected).abs() < 1e-12);
+    assert!((motion.linear_mps.x - expected).abs() < 2e-7);
 }
 
 #[test]

@@ -82,11 +82,12 @@ fn armature_adds_inertia_to_the_hinge_only() {
         for step in 1..=10 {
             body.step_only(&[2.0]).expect("finite");
             let rate = 2.0 / (REDUCED_KGM2 + armature) * f64::from(step) * CONTROL_STEP_S;
-            assert!((body.joint_rates()[0] / rate - 1.0).abs() < 1e-12, "armature {armature}");
+            assert!((body.joint_rates()[0] / rate - 1.0).abs() < 5e-7, "armature {armature}");
             // The bodies' angular momenta sum to zero for any armature.
             let spin = [0, 1].map(|index| body.body_motion(index).angular_radps.y);
             let sum = ROOT_INERTIA_KGM2 * spin[0] + LINK_INERTIA_KGM2 * spin[1];
-            assert!(sum.abs() < 1e-12 && spin[1] > 0.0 && spin[0] < 0.0, "armature {armature}: {spin:?}");
+            // Each is up to 0.3 N·m·s.
+            assert!(sum.abs() < 3e-7 && spin[1] > 0.0 && spin[0] < 0.0, "armature {armature}: {spin:?}");
         }
     }
 }
@@ -103,7 +104,7 @@ fn a_spring_comes_to_rest_at_its_rest_angle_with_and_without_a_range() {
         start(&mut body, 0.0, 1.0);
         advance(&mut body, 400, &[0.0]);
         let off = body.joint_angles()[0] - wanted.to_radians();
-        let tolerance = if wanted == 20.0 { 1e-3 } else { 1e-9 };
+        let tolerance = if wanted == 20.0 { 1e-3 } else { 2e-7 };
         assert!(off.abs() < tolerance, "{joint}: off by {off} rad");
         assert!(body.joint_rates()[0].abs() < 1e-6);
     }

@@ -78,7 +78,7 @@ fn dry_friction_holds_below_its_torque_and_slips_above() {
         body.set_state(&position, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0 * sign]);
         advance(&mut body, 40, &[0.0]);
         let wanted = sign * (3.0 - LOSS_NM / inertia_kgm2 * 40.0 * CONTROL_STEP_S);
-        assert!((body.joint_rates()[0] - wanted).abs() < 1e-9, "{} rad/s, not {wanted} rad/s", body.joint_rates()[0]);
+        assert!((body.joint_rates()[0] - wanted).abs() < 4e-5, "{} rad/s, not {wanted} rad/s", body.joint_rates()[0]);
         advance(&mut body, 100, &[0.0]);
         assert!(body.joint_rates()[0].abs() < 1e-6, "{} rad/s", body.joint_rates()[0]);
         // MuJoCo 4.0: 2.2915 rad; without softness 3² × inertia / (2 × torque) = 2.2922 rad.
@@ -140,7 +140,8 @@ fn friction_of_the_free_joint_slows_a_fall() {
     assert!((velocity[5] - spin_radps).abs() < 1e-5, "{} rad/s, not {spin_radps} rad/s", velocity[5]);
     let mut free = falling(0.0);
     advance(&mut free, 60, &[0.0]);
-    assert!((free.velocity()[2] + 9.81 * time_s).abs() < 1e-9);
+    // 240 additions to up to 9 m/s in single precision.
+    assert!((free.velocity()[2] + 9.81 * time_s).abs() < 4e-5);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod hinge;
 mod invariance;
 mod joints;
 mod model_motion;
+mod places;
 mod rest;
 mod rolling;
 mod variation;

@@ -14,6 +14,9 @@ use crate::lanes::{Lanes, Mask, Vec3};
 pub(super) const EDGES: usize = 4;
 /// Least friction of a pyramid, as MuJoCo's `mjMINMU`: the edges of a flat one would be infinitely stiff.
 const FRICTION_MIN: f64 = 1e-5;
+/// Least friction for which the edges' stiffness follows MuJoCo's formula. It grows with the inverse square: below, single
+/// precision would turn rounding errors of accelerations into forces.
+const STIFF_FRICTION_MIN: f64 = 0.01;
 
 /// Contact of a step.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +138,8 @@ impl<S: Simd> ContactConstraint<S> {
         let violation = contact.gap_m - pair.margin_m;
         let active = violation.less_than(zero);
         // MuJoCo's approximate response of an edge, and its softness for pyramids ("diagApprox", "makeImpedance").
-        let square = friction * friction;
+        let stiff = friction.max(zero.constant(STIFF_FRICTION_MIN));
+        let square = stiff * stiff;
         let response =
             if edges == 1 { zero.constant(pair.response) } else { (square + 1.0) * square * (2.0 * pair.response) };
         let rates = rows.products(start, &pair.dofs, start_velocity);

@@ -72,7 +72,7 @@ pub(super) fn prepare<S: Simd>(
         let servo = coordinate.hinge.map(|hinge| &hinges[hinge]);
         let saturates = servo.map_or(never, |servo| {
             let nearest_nm = servo.min_nm.abs().min(servo.max_nm.abs());
-            nearest_nm.less_than(zero.constant(f64::MAX)).and(zero.less_than(servo.implicit_kgm2))
+            nearest_nm.less_than(zero.constant(1e30)).and(zero.less_than(servo.implicit_kgm2))
         });
         let slips = if coordinate.friction_loss > 0.0 { zero.less_than(one) } else { never };
         let active = beyond.or(saturates).or(slips);

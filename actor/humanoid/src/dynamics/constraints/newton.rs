@@ -20,6 +20,11 @@ const ITERATIONS_MAX: usize = 50;
 const SETTLED: f64 = 1e-10;
 /// The same, absolute (kg·m²/s⁴).
 const SETTLED_MIN: f64 = 1e-8;
+/// In single precision some solutions come no closer than this multiple of the tolerances: from there on, an iteration that
+/// improves the acceleration by less than [`PROGRESS`] is the last one.
+const ROUNDED: f64 = 1e4;
+/// Share of what the step before would have changed, squared.
+const PROGRESS: f64 = 0.25;
 /// Upper bound of the steps of a search along a line.
 const SEARCH_MAX: usize = 10;
 /// A search ends when the slope is at most this share of the first one.
@@ -41,6 +46,8 @@ pub(super) struct Newton<S: Simd> {
     step: Vec<Lanes<S>>,
     inertial_step: Vec<Lanes<S>>,
     whitened_gradient: Vec<[Lanes<S>; 1]>,
+    /// What the next step changes at most, squared, in the norm of the kinetic energy (kg·m²/s⁴).
+    missing: Lanes<S>,
     /// Rows of a contact times their weights.
     weighted: Vec<[Lanes<S>; 3]>,
 }
@@ -81,6 +88,7 @@ impl<S: Simd> Newton<S> {
             step: vector.clone(),
             inertial_step: vector,
             whitened_gradient: vec![[zero]; structure.dofs()],
+            missing: zero,
             weighted: Vec::with_capacity(structure.dofs()),
         }
     }
@@ -131,6 +139,7 @@ impl<S: Simd> Newton<S> {
     fn begin(&mut self, problem: &Problem<'_, S>, start: &[Lanes<S>], whitened: &[Lanes<S>]) {
         let one = whitened[0].constant(1.0);
         let zero = whitened[0].constant(0.0);
+        self.missing = zero.constant(1e30);
         self.free.copy_from_slice(whitened);
         problem.matrix.unwhiten(problem.structure, &mut self.free);
         self.acceleration.copy_from_slice(start);
@@ -230,7 +239,7 @@ impl<S: Simd> Newton<S> {
         self.hessian.add_product(dofs, &self.weighted, rows);
     }
 
-    /// Returns where the present acceleration is no solution.
+    /// Returns where the present acceleration is no solution, and a better one can be found.
     #[inline(always)]
     fn is_unsettled(&mut self, problem: &Problem<'_, S>) -> Mask<S> {
         let structure = problem.structure;
@@ -245,7 +254,10 @@ impl<S: Simd> Newton<S> {
             missing = number.mul_add(*number, missing);
             changed = (*acceleration - *free).mul_add(*inertial, changed);
         }
-        (changed * SETTLED).max(zero.constant(SETTLED_MIN)).less_than(missing)
+        let settled = (changed * SETTLED).max(zero.constant(SETTLED_MIN));
+        let improves = missing.less_than(self.missing * PROGRESS).or((settled * ROUNDED).less_than(missing));
+        self.missing = missing;
+        settled.less_than(missing).and(improves)
     }
 
     /// Computes what a whole step would change.
@@ -270,7 +282,7 @@ impl<S: Simd> Newton<S> {
             free_curvature = step.mul_add(self.inertial_step[index], free_curvature);
         }
         let enough = first.abs() * SEARCH_SETTLED;
-        let (mut low, mut high) = (zero, zero.constant(f64::MAX));
+        let (mut low, mut high) = (zero, zero.constant(1e30));
         let mut share = zero.constant(1.0);
         let mut searching = running;
         for _ in 0..SEARCH_MAX {

@@ -67,7 +67,7 @@ pub(super) fn soft_row<S: Simd>(
 
 #[cold]
 fn to_power<S: Simd>(mut x: Lanes<S>, power: f64) -> Lanes<S> {
-    for lane in 0..S::F64_LANES {
+    for lane in 0..S::F32_LANES {
         x.set_lane(lane, x.lane(lane).powf(power));
     }
     x
@@ -95,7 +95,7 @@ mod tests {
                 };
                 let wanted = start + y * (end - start);
                 let found = impedance(&softness, Lanes::splat(Scalar, violation)).lane(0);
-                assert!((found - wanted).abs() < 1e-12, "power {power}, {violation}: {found} instead of {wanted}");
+                assert!((found - wanted).abs() < 4e-7, "power {power}, {violation}: {found} instead of {wanted}");
             }
         }
         let mixed = Softness { impedance: [0.775, 0.9125, 0.004, 0.45, 2.625], ..Softness::default() };
@@ -104,12 +104,12 @@ mod tests {
             [(0.001, 0.788_225_889_382), (0.002, 0.853_614_334_297), (0.003, 0.902_954_342_439), (0.0045, 0.9125)]
         {
             let found = impedance(&mixed, Lanes::splat(Scalar, violation)).lane(0);
-            assert!((found - wanted).abs() < 1e-11, "{violation}: {found}");
+            assert!((found - wanted).abs() < 4e-7, "{violation}: {found}");
         }
         for impedance_without_width in [[0.8, 0.9, 0.0, 0.5, 2.0], [0.85, 0.85, 0.01, 0.5, 2.0]] {
             let softness = Softness { impedance: impedance_without_width, ..Softness::default() };
             let found = impedance(&softness, Lanes::splat(Scalar, -0.003)).lane(0);
-            assert!((found - 0.85).abs() < 1e-12, "{found}");
+            assert!((found - 0.85).abs() < 1e-7, "{found}");
         }
     }
 
@@ -120,7 +120,7 @@ mod tests {
         let row = soft_row(&softness, violation, rate, response, 0.0);
         // −b v − k d r, and (1 − d) / d × response, with d = 0.925.
         let target = 0.2 * softness.damping + softness.stiffness * 0.925 * 0.0005;
-        assert!((row.target.lane(0) / target - 1.0).abs() < 1e-12);
-        assert!((row.softness.lane(0) - 0.075 / 0.925 * 3.0).abs() < 1e-12);
+        assert!((row.target.lane(0) / target - 1.0).abs() < 4e-7);
+        assert!((row.softness.lane(0) - 0.075 / 0.925 * 3.0).abs() < 4e-7);
     }
 }
