@@ -2,7 +2,7 @@
 
 mod share;
 
-use std::io;
+use std::{io, time::Duration};
 
 use rand_distr::{Distribution, StandardNormal};
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
@@ -99,6 +99,13 @@ impl Collector {
     /// Returns the precision of observations on the wire.
     pub fn precision(&self) -> Precision {
         self.precision
+    }
+
+    /// Returns the environment steps per second that simulation and networks would each allow alone, on all threads.
+    pub fn speeds(&self) -> [f64; 2] {
+        let sum = |of: fn(&Share) -> Duration| self.shares.iter().map(of).sum::<Duration>().as_secs_f64();
+        let thread_steps = self.env_steps as f64 * self.shares.len() as f64;
+        [sum(|share| share.simulating), sum(|share| share.inferring)].map(|busy_s| thread_steps / busy_s.max(1e-9))
     }
 
     /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to

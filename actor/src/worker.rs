@@ -4,7 +4,7 @@ mod options;
 mod physics_thread;
 
 use std::{
-    sync::{Arc, atomic::Ordering},
+    sync::{Arc, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
 
@@ -294,7 +294,12 @@ impl<'a> Membership<'a> {
     fn stats(&self, rate: &mut RateMeter) -> ActorStats {
         let progress = &self.shared.progress;
         let env_steps = progress.env_steps.load(Ordering::Relaxed);
+        let [simulation_steps_per_s, inference_steps_per_s, encoding_steps_per_s] =
+            *progress.speeds.lock().unwrap_or_else(PoisonError::into_inner);
         ActorStats {
+            simulation_steps_per_s,
+            inference_steps_per_s,
+            encoding_steps_per_s,
             incarnation: self.identity.incarnation,
             envs: self.options.envs,
             env_steps_per_s: rate.update(env_steps),

@@ -17,7 +17,14 @@ impl ActorStats {
         check_size("statistics", bytes.len(), STATS_BYTES_MAX)?;
         let stats = Self::decode(bytes).map_err(Malformed::undecodable("statistics"))?;
         check_ident("actor", &stats.actor)?;
-        check_finite("env_steps_per_s", [stats.env_steps_per_s])?;
+        for (field, speed) in [
+            ("env_steps_per_s", stats.env_steps_per_s),
+            ("simulation_steps_per_s", stats.simulation_steps_per_s),
+            ("inference_steps_per_s", stats.inference_steps_per_s),
+            ("encoding_steps_per_s", stats.encoding_steps_per_s),
+        ] {
+            check_finite(field, [speed])?;
+        }
         for (field, text) in [("host", &stats.host), ("program_version", &stats.program_version)] {
             if text.len() > STATS_TEXT_BYTES_MAX {
                 let expected = format!("at most {STATS_TEXT_BYTES_MAX} bytes");

@@ -141,6 +141,9 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
             means.return_mean
         ));
     }
+    if let Some(limit) = summary.parts.limit() {
+        say(&format!("{} took most of the time; to train faster, {}", limit.name, limit.help));
+    }
     if summary.stopped {
         say_error(&format!("resume with: {resumed_by}"));
     } else {

@@ -3,6 +3,7 @@
 use treadmill_config::{Config, ConfigSource, LearnerMode, RolloutConfig};
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::checkpoint::TrainingState;
+use treadmill_ppo::settings;
 use treadmill_proto::limits::fragment_envs_max;
 use treadmill_runtime::{run_folder::RunFolder, run_lock::RunLock, seeds};
 
@@ -49,11 +50,17 @@ pub fn begin(
     }
 }
 
-fn begin_built_in(launcher: Launcher<'_>, new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
+fn begin_built_in(
+    launcher: Launcher<'_>,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    mut config: Config,
+) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let text = model::completed(&config, any.model.as_deref())?;
     let environment = model::environment(launcher.tasks, &config, &text, any.model.as_deref())?;
     let networks = model::networks(&config, &environment)?;
+    settings::choose(&mut config.ppo, &networks);
     if launcher.command == RunCommand::Train {
         check_fragments(&config, environment.observation_size(), environment.action_size())?;
     }
@@ -98,11 +105,12 @@ fn branch_off(
     launcher: Launcher<'_>,
     new: &NewRunArgs,
     any: &AnyRunArgs,
-    config: Config,
+    mut config: Config,
     fork: Fork,
 ) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let (prefix, origin) = (format!("{}-fork", fork.state.run), Some(fork.origin.clone()));
+    settings::choose(&mut config.ppo, fork.state.ppo.networks());
     let mut state = fork.with_config(&config)?;
     if !config.is_external() {
         if let Some(file) = &any.model {

@@ -295,7 +295,7 @@ fn spawn_training(
 }
 
 fn as_json(summary: &TrainingSummary) -> String {
-    let state = &summary.state;
+    let (state, parts) = (&summary.state, &summary.parts);
     let means = state.episodes.means();
     let number = |of: fn(&EpisodeMeans) -> f64| means.as_ref().map(of);
     json!({
@@ -311,6 +311,9 @@ fn as_json(summary: &TrainingSummary) -> String {
         "restarts": state.counters.restarts,
         "used_share": state.counters.used_share(),
         "stopped": summary.stopped,
+        "efficiency": parts.efficiency(),
+        "limit": parts.limit().map(|part| part.name),
+        "limit_help": parts.limit().map(|part| part.help),
     })
     .to_string()
 }

@@ -6,6 +6,7 @@ use treadmill_config::{Config, LearnerMode};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::device::{Device, DeviceKind};
+use treadmill_ppo::settings;
 use treadmill_proto::Task;
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds, words};
 
@@ -99,8 +100,10 @@ impl RunSetup {
     pub fn set_task(&mut self, task: Task, init_from: Option<&InitFrom>) -> anyhow::Result<TrainingState> {
         let shape = TrainingState::shape_for(&self.config, &task);
         self.config.task = task.into();
+        let networks = shape.into();
+        settings::choose(&mut self.config.ppo, &networks);
         self.config.check()?;
-        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", shape.into(), seeds::unique());
+        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", networks, seeds::unique());
         self.origin = init_from.map(|from| from.copy_to(&mut fresh)).transpose()?;
         atomic_file::write(&self.folder.config(), self.config.to_toml().as_bytes())?;
         Ok(fresh)

@@ -1,5 +1,7 @@
 //! Share of an actor's environments, which one thread collects.
 
+use std::time::{Duration, Instant};
+
 use treadmill_policy::gaussian;
 use treadmill_proto::{Episode, Fragment, fragment::TRUNCATED};
 
@@ -31,6 +33,9 @@ pub(super) struct Share {
     /// Ended episodes, and for each step the end of its own.
     episodes: Vec<Episode>,
     episode_ends: Vec<usize>,
+    /// Time in the networks and in the simulation.
+    pub(super) inferring: Duration,
+    pub(super) simulating: Duration,
 }
 
 impl Share {
@@ -50,6 +55,8 @@ impl Share {
             last_ends: Vec::new(),
             episodes: Vec::new(),
             episode_ends: Vec::new(),
+            inferring: Duration::ZERO,
+            simulating: Duration::ZERO,
         }
     }
 
@@ -66,8 +73,12 @@ impl Share {
         for t in 0..steps {
             let start = self.actions.len();
             self.observations.extend_from_slice(self.environments.observations());
+            let begun = Instant::now();
             self.act(policy, &normals[(t as usize * envs + first) * action_size..])?;
+            let acted = Instant::now();
             self.environments.step(&self.actions[start..], &mut self.results);
+            self.inferring += acted - begun;
+            self.simulating += acted.elapsed();
             if let Some(sampler) = &mut self.pose_sampler {
                 sampler.sample(&self.environments, policy.version);
             }

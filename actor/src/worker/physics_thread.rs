@@ -2,12 +2,12 @@
 
 use std::{
     sync::{
-        Arc,
+        Arc, Mutex, PoisonError,
         atomic::{AtomicU64, Ordering},
         mpsc as std_mpsc,
     },
     thread::{self, JoinHandle},
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use tokio::sync::mpsc;
@@ -31,6 +31,8 @@ pub(super) struct Progress {
     pub(super) env_steps: AtomicU64,
     pub(super) episodes: AtomicU64,
     pub(super) faults: AtomicU64,
+    /// Environment steps per second that simulation, networks and encoding would each allow alone.
+    pub(super) speeds: Mutex<[f64; 3]>,
 }
 
 /// Parts of an actor that the physics thread and the async tasks share.
@@ -88,13 +90,21 @@ fn collect_fragments(
     credit: &std_mpsc::Receiver<()>,
     sender: &mpsc::Sender<Result<ProducedFragment, ActorError>>,
 ) {
+    let (mut encoding, mut env_steps) = (Duration::ZERO, 0);
     while credit.recv().is_ok() {
         let policy = shared.policies.current();
         let (steps, settled_through) = (shared.uploader.fragment_steps(), shared.uploader.settled_through());
         let begun = Instant::now();
         let produced = collector.collect(&policy, steps, settled_through).and_then(|mut fragment| {
-            fragment.collect_s = begun.elapsed().as_secs_f64();
-            encode(fragment, collector.precision(), shared)
+            let collected = begun.elapsed();
+            fragment.collect_s = collected.as_secs_f64();
+            env_steps += fragment.transitions();
+            let encoded = encode(fragment, collector.precision(), shared);
+            encoding += begun.elapsed() - collected;
+            let [simulation, inference] = collector.speeds();
+            let encoding = env_steps as f64 / encoding.as_secs_f64().max(1e-9);
+            *shared.progress.speeds.lock().unwrap_or_else(PoisonError::into_inner) = [simulation, inference, encoding];
+            encoded
         });
         let failed = produced.is_err();
         if sender.blocking_send(produced).is_err() || failed {

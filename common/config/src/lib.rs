@@ -100,7 +100,7 @@ impl Config {
     }
 
     fn check_together(&self) -> Result<(), ConfigError> {
-        if self.ppo.minibatch > self.ppo.batch {
+        if self.ppo.batch > 0 && self.ppo.minibatch > self.ppo.batch {
             return refuse(
                 "ppo.minibatch",
                 self.ppo.minibatch.to_string(),

@@ -82,14 +82,15 @@ section! {
 section! {
     /// Proximal policy optimisation.
     PpoConfig as "ppo" {
-        /// Fewest transitions of one update; a batch holds all that the actors have delivered.
-        batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
+        /// Fewest transitions of one update; a batch holds all that the actors have delivered. A new run replaces 0 by 2,048
+        /// if its networks are equivariant, and by 4,096 if they are dense.
+        batch: u32 = 0, "0 to 16777216" => |v| *v <= 16_777_216;
         /// Transitions of one update that automatic fragments do not exceed; in learner.mode "async" no batch does.
         batch_max: u32 = 131_072, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
-        /// Transitions of one gradient step; 0 divides each batch into 16.
+        /// Transitions of one gradient step; 0 means 512, or a whole batch that is smaller.
         minibatch: u32 = 0, "0 to ppo.batch" => |_| true;
         /// Passes over the batch in one update.
-        epochs: u32 = 2, "1 to 100" => |v| (1..=100).contains(v);
+        epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
         /// Fewest passes in learner.mode "async", used when experience waits although batches have their largest size.
         epochs_min: u32 = 1, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
         /// Discount of future reward per control step.
@@ -119,7 +120,7 @@ section! {
         learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// Target KL divergence. Above twice this value the learning rate is divided by 1.5, below half of it multiplied by
         /// 1.5; 0 keeps it fixed.
-        target_kl: f64 = 0.048, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        target_kl: f64 = 0.04, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Factor on rewards before returns are computed.
         reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
     }
@@ -192,14 +193,18 @@ impl RolloutConfig {
 }
 
 impl PpoConfig {
-    /// Gradient steps of one pass over a batch if `minibatch` is 0.
-    const MINIBATCHES: usize = 16;
+    /// Transitions of one gradient step if `minibatch` is 0.
+    const MINIBATCH_ROWS: u32 = 512;
 
-    /// Returns the transitions of one gradient step in a batch of `rows`.
-    pub fn minibatch_rows(&self, rows: usize) -> usize {
-        match self.minibatch {
-            0 => rows.div_ceil(Self::MINIBATCHES),
-            pinned => pinned as usize,
+    /// Returns the transitions of one gradient step, for batches that are as large.
+    pub fn minibatch_rows(&self) -> usize {
+        (if self.minibatch == 0 { Self::MINIBATCH_ROWS } else { self.minibatch }) as usize
+    }
+
+    /// Replaces a batch of 0 by that of equivariant or dense networks. Small batches harm dense ones.
+    pub fn choose_batch(&mut self, is_equivariant: bool) {
+        if self.batch == 0 {
+            self.batch = if is_equivariant { 2048 } else { 4096 };
         }
     }
 }

@@ -20,6 +20,11 @@ pub fn wants_mirror(config: &PpoConfig) -> Option<bool> {
     }
 }
 
+/// Replaces settings that a new run chooses by its networks.
+pub fn choose(config: &mut PpoConfig, networks: &Networks) {
+    config.choose_batch(networks.mirror().is_some());
+}
+
 /// Checks that networks are of the kind that `ppo.symmetry` asks for.
 ///
 /// # Errors

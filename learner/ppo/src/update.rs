@@ -124,7 +124,7 @@ impl Ppo {
             shuffle(&mut order, &mut state.shuffle);
             // On a thread of the pool, so that the others wait for its next task and are not woken for each.
             pool.install(|| -> Result<(), UpdateError> {
-                for range in minibatches(order.len(), config.minibatch_rows(order.len())) {
+                for range in minibatches(order.len(), config.minibatch_rows()) {
                     let rows = &order[range];
                     let loss = compute_gradient(rows, &state.parameters, &mut gradient)?;
                     self.step(state, rows.len(), &loss, &gradient, &mut stats)?;

@@ -98,7 +98,7 @@ mod tests {
     /// Folder with `latest` after 7 updates, `best` after 3, and those after 2, 4 and 6.
     fn saved(at: &Path) -> RunFolder {
         let folder = RunFolder::create(Some(&at.join("run")), "x").unwrap();
-        let writer = CheckpointWriter::new(&folder, 2, 9);
+        let mut writer = CheckpointWriter::new(&folder, 2, 9);
         for updates in 1..=7 {
             let saved = writer.save(&state(updates)).unwrap();
             if updates == 3 {

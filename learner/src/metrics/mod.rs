@@ -2,6 +2,7 @@
 //!
 //! # Layout
 //! - [`catalogue`]: [`METRICS`](catalogue::METRICS), the table of all metrics: tag, unit, help and source of the value.
+//! - `parts`: [`PartMeter`], the speed that each part of training would allow alone.
 //! - [`scalars`]: what the scalars of an update are computed from; [`histograms`]: distributions of actions and lags.
 //! - [`reward_terms`]: [`RewardTerms`], the terms of the reward over a batch.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
@@ -24,6 +25,7 @@ mod efficiency;
 pub mod histograms;
 pub mod history;
 pub mod jsonl;
+mod parts;
 pub mod progress;
 pub mod prometheus;
 pub mod report;
@@ -38,6 +40,7 @@ pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use history::History;
 pub use jsonl::JsonLines;
+pub use parts::{PARTS, Part, PartMeter, PartTimes};
 pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::{MetricsReport, ReportOptions};

@@ -8,7 +8,7 @@ use std::{
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
 use treadmill_proto::{ActorStats, EvaluationReport};
 
-use super::{Efficiency, History, catalogue::METRICS};
+use super::{Efficiency, History, catalogue::METRICS, parts::PartTimes};
 use crate::checkpoint::TrainingState;
 
 /// Durations of the phases of one update.
@@ -78,6 +78,8 @@ pub struct UpdateRecord<'a> {
     pub history: &'a History,
     /// Speed and efficiency over the last updates.
     pub efficiency: Efficiency,
+    /// Times of the parts.
+    pub parts: PartTimes,
     /// Actors that are alive.
     pub alive: &'a BTreeSet<String>,
     /// Newest statistics of each actor.

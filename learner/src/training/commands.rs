@@ -81,7 +81,8 @@ impl Trainer {
 
     /// Changes one key.
     fn set(&mut self, key: &str, value: &str) -> Result<String, String> {
-        let changed = changed(&self.state.config_toml, key, value).map_err(|why| error_chain(&why))?;
+        let mut changed = changed(&self.state.config_toml, key, value).map_err(|why| error_chain(&why))?;
+        settings::choose(&mut changed.ppo, self.state.ppo.networks());
         self.objection(key, &changed).map_or(Ok(()), Err)?;
         let before = self.config.value_of(key);
         self.adopt(key, changed).map_err(|why| error_chain(&why))?;

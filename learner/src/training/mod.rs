@@ -67,12 +67,14 @@ pub fn train(
     let mut trainer = Trainer::start(bus, state, leadership, options, shutdown)?;
     // A successor ends every wait, so whatever failed then is not the cause.
     let outcome = run(&mut trainer).map_err(|why| trainer.serving.storage.check_leadership().err().unwrap_or(why));
+    let parts = trainer.reporting.parts;
     let (state, history, stopped) = trainer.finish(outcome)?;
     Ok(TrainingSummary {
         wall_s: begun.elapsed().as_secs_f64(),
         env_steps: state.counters.env_steps - steps_before,
         stopped,
         history,
+        parts,
         state,
     })
 }

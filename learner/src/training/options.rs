@@ -6,7 +6,7 @@ use treadmill_runtime::run_folder::RunFolder;
 
 use crate::{
     checkpoint::TrainingState,
-    metrics::{History, ReportOptions},
+    metrics::{History, PartTimes, ReportOptions},
     waiting::Heartbeat,
 };
 
@@ -43,11 +43,20 @@ pub struct TrainingSummary {
     pub stopped: bool,
     /// Returns, distances and errors so far.
     pub history: History,
+    /// Times of the parts over the last updates.
+    pub parts: PartTimes,
 }
 
 impl TrainingSummary {
     /// Summary of a start that has nothing left to do.
     pub fn finished(state: TrainingState) -> Self {
-        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, history: History::default() }
+        Self {
+            state,
+            wall_s: 0.0,
+            env_steps: 0,
+            stopped: false,
+            history: History::default(),
+            parts: PartTimes::default(),
+        }
     }
 }

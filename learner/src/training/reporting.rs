@@ -22,7 +22,8 @@ use crate::{
     checkpoint::{Counters, TrainingState},
     intake::{CollectedBatch, FleetEffort},
     metrics::{
-        Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, RewardTerms, histograms,
+        Efficiency, EfficiencyMeter, History, MetricsReport, PartMeter, PartTimes, PrometheusMetrics, RewardTerms,
+        histograms,
         scalars::{PhaseDurations, PolicyLag, UpdateRecord},
     },
     waiting::Retry,
@@ -52,6 +53,11 @@ pub(super) struct Reporting {
     action_names: Vec<String>,
     reward_terms: RewardTerms,
     efficiency_meter: EfficiencyMeter,
+    part_meter: PartMeter,
+    /// Times of the parts over the last updates.
+    pub(super) parts: PartTimes,
+    /// When the last round ended.
+    round_ended: Instant,
     /// Speed and efficiency over the last updates.
     pub(super) efficiency: Efficiency,
     pub(super) alarms: Alarms,
@@ -87,6 +93,9 @@ impl Reporting {
             action_names: options.action_names.clone(),
             reward_terms: RewardTerms::default(),
             efficiency_meter: EfficiencyMeter::new(Instant::now(), state.counters.env_steps),
+            part_meter: PartMeter::default(),
+            parts: PartTimes::default(),
+            round_ended: Instant::now(),
             efficiency: Efficiency::default(),
             alarms: Alarms::default(),
             restarts: options.restarts.clone(),
@@ -162,6 +171,9 @@ impl Reporting {
         self.lag_mean = lag.mean;
         let is_due = self.is_due(state, config, evaluation.is_some());
         let stats = self.stats.newest();
+        let round = std::mem::replace(&mut self.round_ended, Instant::now()).elapsed();
+        self.part_meter.add(learnt, round, durations);
+        self.parts = self.part_meter.times(stats);
         self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
         self.history.add(return_mean, distance_m, evaluation.as_ref().map(|result| result.report.distance_mean_m));
@@ -184,6 +196,7 @@ impl Reporting {
             history: &self.history,
             stats,
             efficiency: self.efficiency,
+            parts: self.parts,
             alive,
             quarantined: validator.quarantined(Instant::now()).len(),
             turned_away: validator.turned_away,

@@ -65,6 +65,8 @@ impl Trainer {
             used_share: reporting.efficiency.used_share,
             idle_share: reporting.efficiency.idle_share,
             undone_updates: state.counters.undone_updates,
+            limit: reporting.parts.limit().map(|part| part.name.to_string()).unwrap_or_default(),
+            limit_help: reporting.parts.limit().map(|part| part.help.to_string()).unwrap_or_default(),
             alarms: reporting.alarms.texts(&validator.rejections, Instant::now()),
             ..first(state, &self.config)
         };

@@ -1,6 +1,6 @@
 //! `bench train`: speed of this binary's own `train` in a temporary folder.
 
-use std::{fs, path::Path, process::Stdio};
+use std::{ffi::OsStr, fs, path::PathBuf, process::Stdio};
 
 use anyhow::Context;
 use clap::Args;
@@ -20,6 +20,15 @@ pub struct BenchTrainArgs {
     /// Actor processes; by default one per core.
     #[arg(long)]
     actors: Option<u32>,
+    /// Preset to train.
+    #[arg(long, default_value = "walk")]
+    preset: String,
+    /// Model file, as of `train`.
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    /// Set a configuration key, as in ppo.batch=4096; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Train a second time with the state below this store, and report what that adds to a round.
     #[arg(long, value_name = "URL")]
     store: Option<String>,
@@ -35,20 +44,26 @@ struct Measured {
     checkpoint_ms: f64,
     /// Mean time between two updates (ms).
     round_ms: f64,
+    /// Environment steps per second that each part would allow alone, the ideal speed, and the efficiency.
+    parts: serde_json::Map<String, Value>,
 }
 
 /// Runs the measurement and prints its result.
 pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
-    // Preset `walk` is the default configuration.
     let actors = prepared::actor_processes(args.actors.unwrap_or(0), Config::default().rollout.envs);
-    let Measured { summary, checkpoint_ms, round_ms } = train(args.steps, actors, None)?;
+    let Measured { summary, checkpoint_ms, round_ms, mut parts } = train(args, actors, None)?;
     let number = |field: &str| summary[field].as_f64().with_context(|| format!("the summary has no `{field}`"));
     let mut result = json!({
         "env_steps_per_s": rounded(number("env_steps_per_s")?),
         "actors": actors,
         "cores": machine::cores(),
         "cpu": machine::cpu_name(),
-        "workload": format!("preset walk, {} env steps, start of the actors included", summary["env_steps"]),
+        "workload": format!("preset {}, {} env steps, start of the actors included", args.preset, summary["env_steps"]),
+        "ideal_steps_per_s": parts.remove("ideal"),
+        "efficiency": parts.remove("efficiency"),
+        "parts": parts,
+        "limit": summary["limit"],
+        "limit_help": summary["limit_help"],
         "wall_s": rounded(number("wall_s")?),
         "round_ms": rounded(round_ms),
         "checkpoint_ms": rounded(checkpoint_ms),
@@ -57,7 +72,7 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
     if let Some(url) = &args.store {
         // A store may keep the run of an earlier benchmark.
         let url = format!("{}/bench-{:016x}", url.trim_end_matches('/'), seeds::unique());
-        let stored = train(args.steps, actors, Some(&url))?;
+        let stored = train(args, actors, Some(&url))?;
         result["store"] = url.into();
         result["store_env_steps_per_s"] =
             rounded(stored.summary["env_steps_per_s"].as_f64().unwrap_or_default()).into();
@@ -70,13 +85,15 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn train(steps: u64, actors: u32, store: Option<&str>) -> anyhow::Result<Measured> {
+fn train(args: &BenchTrainArgs, actors: u32, store: Option<&str>) -> anyhow::Result<Measured> {
     let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let run = folder.path().join("bench");
     let program = std::env::current_exe().context("this program's own path is unknown")?;
     let output = child::command(&program, 0)
         .args(["train", "--no-progress", "--json"])
-        .args(["--steps", &steps.to_string(), "--actors", &actors.to_string()])
+        .args(["--steps", &args.steps.to_string(), "--actors", &actors.to_string(), "--preset", &args.preset])
+        .args(args.set.iter().flat_map(|pair| ["--set", pair]))
+        .args(args.model.iter().flat_map(|file| [OsStr::new("--model"), file.as_os_str()]))
         .args(store.into_iter().flat_map(|url| ["--store", url]))
         .arg("--run-dir")
         .arg(&run)
@@ -89,15 +106,22 @@ fn train(steps: u64, actors: u32, store: Option<&str>) -> anyhow::Result<Measure
         .context("training ended without a summary")?;
     let updates = summary["updates"].as_f64().context("the summary has no `updates`")?.max(1.0);
     let wall_s = summary["wall_s"].as_f64().context("the summary has no `wall_s`")?;
-    let checkpoint_ms = 1e3 * mean(&run.join("metrics.jsonl"), "time/checkpoint_s")?;
-    Ok(Measured { summary, checkpoint_ms, round_ms: 1e3 * wall_s / updates })
-}
-
-/// Returns the mean of a scalar over a run.
-fn mean(metrics: &Path, tag: &str) -> anyhow::Result<f64> {
-    let text = fs::read_to_string(metrics).with_context(|| format!("cannot read {}", metrics.display()))?;
-    let lines = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
-    let values: Vec<f64> = lines.filter(|line| line["tag"] == tag).filter_map(|line| line["value"].as_f64()).collect();
-    anyhow::ensure!(!values.is_empty(), "{} has no `{tag}`", metrics.display());
-    Ok(values.iter().sum::<f64>() / values.len() as f64)
+    let metrics = run.join("metrics.jsonl");
+    let text = fs::read_to_string(&metrics).with_context(|| format!("cannot read {}", metrics.display()))?;
+    let lines: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let checkpoints: Vec<f64> = lines
+        .iter()
+        .filter(|line| line["tag"] == "time/checkpoint_s")
+        .filter_map(|line| line["value"].as_f64())
+        .collect();
+    anyhow::ensure!(!checkpoints.is_empty(), "{} has no checkpoints", metrics.display());
+    // The newest value of each.
+    let parts = lines.iter().filter_map(|line| {
+        let name = line["tag"].as_str()?.strip_prefix("parts/")?;
+        let value = line["value"].as_f64()?;
+        Some((name.to_string(), if name == "efficiency" { (value * 1e3).round() / 1e3 } else { rounded(value) }.into()))
+    });
+    let parts = parts.collect();
+    let checkpoint_ms = 1e3 * checkpoints.iter().sum::<f64>() / checkpoints.len() as f64;
+    Ok(Measured { summary, checkpoint_ms, round_ms: 1e3 * wall_s / updates, parts })
 }

@@ -69,6 +69,8 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         },
         "used_share": run.used_share,
         "idle_share": run.idle_share,
+        "limit": run.limit,
+        "limit_help": run.limit_help,
         "undone_updates": run.undone_updates,
         "alarms": run.alarms,
         "waits_for_storage": run.waits_for_storage,

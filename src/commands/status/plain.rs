@@ -105,6 +105,10 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         run.undone_updates,
         share(run.idle_share)
     )?;
+    if !run.limit.is_empty() {
+        let [limit, help] = [&run.limit, &run.limit_help].map(|text| printable(text, ALARM_CHARS_MAX));
+        writeln!(out, "  limit      {limit} takes most of the time; {help}")?;
+    }
     for alarm in &run.alarms {
         writeln!(out, "  ALARM      {}", printable(alarm, ALARM_CHARS_MAX))?;
     }

@@ -74,10 +74,11 @@ prop_compose! {
         known in any::<bool>(),
         actors in prop::collection::vec(actor(), 0..24),
         alarms in prop::collection::vec(names(), 0..6),
+        (limit, limit_help) in (names(), names()),
     ) -> RunStatus {
         RunStatus {
             time_unix_s: floats[0],
-            run, phase, pid, host, program_version, actors, alarms,
+            run, phase, pid, host, program_version, actors, alarms, limit, limit_help,
             used_share: known.then_some(floats[8]), idle_share: known.then_some(floats[9]), undone_updates: counts[13],
             version: known.then_some(PolicyVersion::new(counts[0], counts[1])),
             env_steps: counts[2], env_steps_wanted: counts[3], updates: counts[4],
