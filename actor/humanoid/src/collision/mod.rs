@@ -33,6 +33,16 @@ pub(crate) struct Contact<S: Simd> {
     pub(crate) gap_m: Lanes<S>,
 }
 
+/// Place of O in the world.
+pub(crate) struct Root<'a, S: Simd> {
+    /// Where it was at the start of the pass, one place for each world in use (m).
+    pub(crate) start_m: &'a [Vector3<f64>],
+    /// Its motion since then (m).
+    pub(crate) moved_m: &'a Vec3<S>,
+    /// Height (m).
+    pub(crate) height_m: Lanes<S>,
+}
+
 /// Contacts of one step, and workspace to find them.
 pub(crate) struct Collisions<S: Simd> {
     /// In the order of pairs and points, so that the constraint solve always takes them in the same order.
@@ -57,20 +67,11 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
-    /// Finds all contacts at a posture. O is `moved_m` from `start_m`, one place in the world for each lane in use, whose
-    /// heights are `start_height_m`.
+    /// Finds all contacts at a posture.
     #[inline(always)]
-    pub(crate) fn find(
-        &mut self,
-        model: &CollisionModel,
-        posture: &Posture<S>,
-        start_m: &[Vector3<f64>],
-        start_height_m: Lanes<S>,
-        moved_m: &Vec3<S>,
-    ) {
+    pub(crate) fn find(&mut self, model: &CollisionModel, posture: &Posture<S>, root: &Root<'_, S>) {
         self.contacts.clear();
-        let zero = moved_m.z.constant(0.0);
-        let height_m = start_height_m + moved_m.z;
+        let zero = root.height_m.constant(0.0);
         for (index, shape) in model.shapes.iter().enumerate() {
             let rotation = &posture.rotations[shape.body];
             self.centres_m[index] = posture.origins_m[shape.body] + rotation.times_constant(&shape.centre_m);
@@ -83,18 +84,15 @@ impl<S: Simd> Collisions<S> {
         for (index, pair) in model.pairs.iter().enumerate() {
             let key = index as u32;
             let near = match pair.second {
-                None if model.is_flat() => {
-                    if model.shapes[pair.first].is_round {
-                        self.touch_plane(model, key, pair, height_m);
-                        continue;
-                    }
-                    self.is_low(model, pair, height_m)
+                None if model.is_flat() && model.shapes[pair.first].is_round => {
+                    self.touch_plane(model, key, pair, root.height_m);
+                    continue;
                 }
-                None => self.is_low_over_field(model, pair, start_m, moved_m),
+                None => self.is_low(model, pair, root),
                 Some(second) => self.is_near(model, pair, second),
             };
             if near.any() {
-                self.query(model, posture, start_m, moved_m, key, pair, near);
+                self.query(model, posture, root, key, pair, near);
             }
         }
     }
@@ -118,34 +116,20 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
-    /// Returns where a shape's bounding sphere reaches below the plane at height 0.
-    #[inline(always)]
-    fn is_low(&self, model: &CollisionModel, pair: &PairNode, height_m: Lanes<S>) -> Mask<S> {
-        let lowest = height_m + self.centres_m[pair.first].z - model.shapes[pair.first].radius_m;
-        lowest.less_than(lowest.constant(pair.margin_m))
-    }
-
     /// Returns where a shape's bounding sphere reaches below the highest point of the ground near it.
     #[inline(always)]
-    fn is_low_over_field(
-        &self,
-        model: &CollisionModel,
-        pair: &PairNode,
-        start_m: &[Vector3<f64>],
-        moved_m: &Vec3<S>,
-    ) -> Mask<S> {
-        let (centre, radius_m) = (*moved_m + self.centres_m[pair.first], model.shapes[pair.first].radius_m);
-        let reach_m = radius_m + pair.margin_m;
-        // No ground reaches lanes without a world.
-        let mut highest = centre.z.constant(-ABSENT_M);
+    fn is_low(&self, model: &CollisionModel, pair: &PairNode, root: &Root<'_, S>) -> Mask<S> {
+        let (centre, radius_m) = (self.centres_m[pair.first], model.shapes[pair.first].radius_m);
+        let lowest = root.height_m + centre.z - radius_m;
+        let mut highest = lowest.constant(pair.margin_m);
         if let Some(field) = &model.height_field {
-            for (lane, start_m) in start_m.iter().enumerate() {
-                let highest_m =
-                    field.highest_near_m(start_m.x + centre.x.lane(lane), start_m.y + centre.y.lane(lane), reach_m);
-                highest.set_lane(lane, highest_m + reach_m - start_m.z);
+            let (x, y) = (root.moved_m.x + centre.x, root.moved_m.y + centre.y);
+            for (lane, start_m) in root.start_m.iter().enumerate() {
+                let (x_m, y_m) = (start_m.x + x.lane(lane), start_m.y + y.lane(lane));
+                highest.set_lane(lane, field.highest_near_m(x_m, y_m, radius_m + pair.margin_m) + pair.margin_m);
             }
         }
-        centre.z.less_than(highest)
+        lowest.less_than(highest)
     }
 
     /// Returns where two shapes may touch: by their bounding spheres, then by their axes if both are round.
@@ -164,27 +148,25 @@ impl<S: Simd> Collisions<S> {
     }
 
     /// Adds the contacts that Rapier finds, world by world.
-    #[expect(clippy::too_many_arguments, reason = "one call site")]
     fn query(
         &mut self,
         model: &CollisionModel,
         posture: &Posture<S>,
-        start_m: &[Vector3<f64>],
-        moved_m: &Vec3<S>,
+        root: &Root<'_, S>,
         key: u32,
         pair: &PairNode,
         near: Mask<S>,
     ) {
-        let zero = moved_m.z.constant(0.0);
+        let zero = root.height_m.constant(0.0);
         let asked = near.select(zero.constant(1.0), zero);
         let mut found = [[Found::default(); POINTS_MAX]; LANES_MAX];
         let mut counts = [0; LANES_MAX];
-        for (lane, start_m) in start_m.iter().enumerate() {
+        for (lane, start_m) in root.start_m.iter().enumerate() {
             if asked.lane(lane) == 0.0 {
                 continue;
             }
             let pose = |body: usize| (posture.rotations[body].lane(lane), posture.origins_m[body].lane(lane));
-            counts[lane] = self.queries.run(model, pair, pose, &(start_m + moved_m.lane(lane)), &mut found[lane]);
+            counts[lane] = self.queries.run(model, pair, pose, &(start_m + root.moved_m.lane(lane)), &mut found[lane]);
         }
         for number in 0..counts.into_iter().max().unwrap_or(0) {
             let vertical = Vec3::new(zero, zero, zero.constant(1.0));

@@ -51,8 +51,8 @@ impl<S: Simd> Group<S> {
         self.moved[3] = Lanes::splat(self.simd, 1.0);
     }
 
-    /// Adds the motion of the pass to the states, where it is finite, and takes the positions back as the worlds have them: what
-    /// follows from a position must not depend on how it was reached.
+    /// Adds the motion of the pass to the states, where it is finite, and takes the positions back as the worlds have
+    /// them: what follows from a position must not depend on how it was reached.
     pub(super) fn store_state(&mut self, worlds: Worlds<'_, '_>) {
         for (lane, world) in worlds.iter_mut().flatten().enumerate() {
             let moved = |index: usize| self.moved[index].lane(lane);

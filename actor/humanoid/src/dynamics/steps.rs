@@ -8,6 +8,7 @@ use super::exchange::set_lane;
 use super::group::{Group, Pass, Worlds};
 use super::momentum::{Momentum, is_free};
 use crate::articulation::{ROOT_DOFS, compose, integrate};
+use crate::collision::Root;
 use crate::lanes::{Force, Lanes, Vec3};
 
 /// Workspace that steps several worlds of one structure.
@@ -121,8 +122,9 @@ impl<S: Simd> Group<S> {
 
     #[inline(always)]
     fn find_contacts(&mut self, pass: Pass<'_>) {
-        let start_m = &self.start_m[..self.worlds];
-        self.collisions.find(pass.collision, &self.posture, start_m, self.start[2], &self.middle_m);
+        let (start_m, moved_m) = (&self.start_m[..self.worlds], &self.middle_m);
+        let root = Root { start_m, moved_m, height_m: self.start[2] + moved_m.z };
+        self.collisions.find(pass.collision, &self.posture, &root);
     }
 
     #[inline(always)]

@@ -49,8 +49,8 @@ fn a_standing_robot_does_not_creep() {
     assert!((lift_n(&robot) / (8.7 * 9.81) - 1.0).abs() < 1e-3, "{} N", lift_n(&robot));
 }
 
-/// Lets the robot stand 2 km from the origin. Returns how far any coordinate moved from where it was after 10 s (m or rad), and
-/// the greatest rate (m/s or rad/s), at the ends of minutes.
+/// Lets the robot stand 2 km from the origin. Returns how far any coordinate moved from where it was after 10 s (m or
+/// rad), and the greatest rate (m/s or rad/s), at the ends of minutes.
 fn stand(minutes: u32) -> [f64; 2] {
     let mut robot = simulation(&three_legged());
     let (mut place, velocity) = (robot.position().to_vec(), robot.velocity().to_vec());
