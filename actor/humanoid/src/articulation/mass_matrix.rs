@@ -7,11 +7,9 @@
 //! u by the whitened row D^−½ L^−ᵀ Jᵀ. The product of that row with u is the rate along the direction. So one row
 //! serves both purposes and needs only half of a solution. The same holds for accelerations and forces.
 
-use pulp::Simd;
-
 use super::posture::Posture;
 use super::structure::{ROOT_DOFS, Structure};
-use crate::lanes::{Inertia, Lanes};
+use crate::lanes::{Inertia, Lanes, Simd};
 
 /// Symmetric matrix over the degrees of freedom with the zeros of a tree.
 ///

@@ -3,10 +3,9 @@
 //! Points are relative to O, the root's origin, so that they stay precise far from the world's origin.
 
 use nalgebra::Vector3;
-use pulp::Simd;
 
 use super::structure::{Axis, ROOT_DOFS, ROOT_POSITIONS, Structure};
-use crate::lanes::{Inertia, Lanes, Mat3, Motion, Vec3};
+use crate::lanes::{Inertia, Lanes, Mat3, Motion, Simd, Vec3};
 
 /// Mass and inertia (xx, yy, zz, xy, xz, yz, in the body's axes) of one body in several worlds.
 #[derive(Clone, Copy, Debug)]

@@ -10,13 +10,12 @@ mod model;
 mod queries;
 
 use nalgebra::Vector3;
-use pulp::Simd;
 
 pub(crate) use self::model::{CollisionModel, PairNode};
 pub(crate) use self::queries::POINTS_MAX;
 use self::queries::{Found, Queries};
 use crate::articulation::Posture;
-use crate::lanes::{LANES_MAX, Lanes, Mask, Vec3};
+use crate::lanes::{LANES_MAX, Lanes, Mask, Simd, Vec3};
 
 /// Index of a pair, and of a contact point within the pair.
 pub(crate) type ContactKey = (u32, u32);

@@ -1,38 +1,40 @@
-//! One workspace per thread, for the widest registers of the machine.
+//! Workspaces of a thread, for all kinds of registers of the machine.
 
-use std::cell::RefCell;
-
-use pulp::{Arch, Simd, WithSimd};
+use std::{cell::RefCell, sync::OnceLock};
 
 use super::group::{Group, Pass, Worlds};
 use super::steps::Engine;
 use super::world::World;
 use crate::articulation::Structure;
 use crate::collision::CollisionModel;
-use crate::lanes::LANES_MAX;
+use crate::lanes::{LANES_MAX, Simd, WithRegisters, with_registers};
 use crate::model::Solver;
 
 /// What a workspace depends on: the solver, and the numbers of bodies, degrees of freedom, entries of their paths,
 /// coordinates, shapes and links.
 type Sizes = (Solver, [usize; 6]);
 
+/// Workspaces for all kinds of registers, widest first.
+type Engines = Vec<Box<dyn Engine>>;
+
 thread_local! {
-    /// Workspace of the last model that this thread simulated. It depends on the model's sizes only, so the next model
-    /// of the same sizes uses it too.
-    static ENGINE: RefCell<Option<(Sizes, Box<dyn Engine>)>> = const { RefCell::new(None) };
+    /// Workspaces of the last model that this thread simulated. They depend on the model's sizes only, so the next model
+    /// of the same sizes uses them too.
+    static ENGINES: RefCell<Option<(Sizes, Engines)>> = const { RefCell::new(None) };
 }
 
 /// Returns how many worlds one pass simulates on this machine.
 #[must_use]
 pub fn worlds_per_pass() -> usize {
     struct Count;
-    impl WithSimd for Count {
+    impl WithRegisters for Count {
         type Output = usize;
-        fn with_simd<S: Simd>(self, _: S) -> usize {
+        fn run<S: Simd>(&self, _: S) -> usize {
             S::F32_LANES
         }
     }
-    Arch::new().dispatch(Count)
+    static WIDEST: OnceLock<usize> = OnceLock::new();
+    *WIDEST.get_or_init(|| with_registers(&Count)[0])
 }
 
 /// Simulates physics steps of all worlds of one model, as many at once as the machine can.
@@ -60,32 +62,34 @@ fn each_pass(
         structure.link_bodies.len(),
     ];
     let sizes = (structure.solver, numbers);
-    let count = worlds_per_pass();
-    ENGINE.with_borrow_mut(|slot| {
-        let engine = match slot {
-            Some((known, engine)) if *known == sizes => engine,
-            _ => &mut slot.insert((sizes, Arch::new().dispatch(Build(structure, collision)))).1,
+    let most = worlds_per_pass();
+    ENGINES.with_borrow_mut(|slot| {
+        let engines = match slot {
+            Some((known, engines)) if *known == sizes => engines,
+            _ => &mut slot.insert((sizes, with_registers(&Build(structure, collision)))).1,
         };
         loop {
             let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
-            for place in chosen.iter_mut().take(count) {
+            for place in chosen.iter_mut().take(most) {
                 *place = worlds.next();
             }
-            if chosen[0].is_none() {
-                break;
+            let count = chosen.iter().flatten().count();
+            // The narrowest registers that suffice take the least time.
+            match engines.iter_mut().rev().find(|engine| count <= engine.lanes()) {
+                Some(engine) if count > 0 => run(&mut **engine, &mut chosen),
+                _ => break,
             }
-            run(&mut **engine, &mut chosen);
         }
     });
 }
 
-/// Builds a workspace for the registers that are given.
-struct Build<'a>(&'a Structure, &'a CollisionModel);
+/// Builds a workspace.
+pub(super) struct Build<'a>(pub(super) &'a Structure, pub(super) &'a CollisionModel);
 
-impl WithSimd for Build<'_> {
+impl WithRegisters for Build<'_> {
     type Output = Box<dyn Engine>;
 
-    fn with_simd<S: Simd>(self, simd: S) -> Box<dyn Engine> {
+    fn run<S: Simd>(&self, simd: S) -> Box<dyn Engine> {
         Box::new(Group::new(simd, self.0, self.1))
     }
 }

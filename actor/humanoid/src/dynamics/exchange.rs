@@ -1,13 +1,12 @@
 //! Exchange between the lanes of a group and its worlds.
 
 use nalgebra::{Quaternion, Vector3};
-use pulp::Simd;
 
 use super::group::{Group, Worlds};
 use super::world::{BodyState, ContactLoad, Impulse, World};
 use crate::articulation::ROOT_POSITIONS;
 use crate::collision::CollisionModel;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd};
 
 /// Magnitude (m, rad, m/s or rad/s) from which a state counts as a fault, as in MuJoCo (`mjMAXVAL`).
 const NUMBER_MAX: f64 = 1e10;

@@ -1,9 +1,7 @@
 //! Accelerations without constraints: motors, springs, friction, gravity, gyroscopic forces.
 
-use pulp::Simd;
-
 use crate::articulation::{MassMatrix, Posture, ROOT_DOFS, ROOT_POSITIONS, Structure};
-use crate::lanes::{Force, Lanes, Motion, Vec3};
+use crate::lanes::{Force, Lanes, Motion, Simd, Vec3};
 
 /// Motors and passive forces of one hinge during a step, linear in the acceleration of the hinge.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,13 @@
 //! Worlds of one pass, one per lane of a vector register.
 
 use nalgebra::Vector3;
-use pulp::Simd;
 
 use super::constraints::{Constraints, Load};
 use super::forces::Forces;
 use super::world::World;
 use crate::articulation::{BodyMasses, MassMatrix, Posture, Structure};
 use crate::collision::{CollisionModel, Collisions};
-use crate::lanes::{Force, LANES_MAX, Lanes, Motion, Vec3};
+use crate::lanes::{Force, LANES_MAX, Lanes, Motion, Simd, Vec3};
 
 /// Worlds of one pass; the first ones are given.
 pub(crate) type Worlds<'a, 'w> = &'a mut [Option<&'w mut World>; LANES_MAX];

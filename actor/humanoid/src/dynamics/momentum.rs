@@ -3,10 +3,8 @@
 //! Time stepping conserves momentum only approximately. A correction of the root's state restores it exactly, which
 //! costs less than finer steps.
 
-use pulp::Simd;
-
 use crate::articulation::{Posture, ROOT_DOFS, Structure};
-use crate::lanes::{Force, Inertia, Motion, Vec3};
+use crate::lanes::{Force, Inertia, Motion, Simd, Vec3};
 
 /// Momentum of a robot, and its inertia.
 #[derive(Clone, Copy, Debug)]

@@ -2,17 +2,20 @@
 //!
 //! The integrator is the implicit midpoint rule, of second order: forces and constraints are those of the step's middle.
 
-use pulp::{NullaryFnOnce, Simd};
+use pulp::NullaryFnOnce;
 
 use super::exchange::set_lane;
 use super::group::{Group, Pass, Worlds};
 use super::momentum::{Momentum, is_free};
 use crate::articulation::{ROOT_DOFS, compose, integrate};
 use crate::collision::Root;
-use crate::lanes::{Force, Lanes, Vec3};
+use crate::lanes::{Force, Lanes, Simd, Vec3};
 
 /// Workspace that steps several worlds of one structure.
 pub(crate) trait Engine {
+    /// Returns the most worlds of a pass.
+    fn lanes(&self) -> usize;
+
     /// Simulates physics steps and updates everything in the worlds.
     fn advance(&mut self, pass: Pass<'_>, worlds: Worlds<'_, '_>, steps: u32);
 
@@ -235,6 +238,10 @@ impl<S: Simd> Group<S> {
 }
 
 impl<S: Simd> Engine for Group<S> {
+    fn lanes(&self) -> usize {
+        S::F32_LANES
+    }
+
     fn advance(&mut self, pass: Pass<'_>, worlds: Worlds<'_, '_>, steps: u32) {
         self.load(worlds);
         self.constraints.forget();

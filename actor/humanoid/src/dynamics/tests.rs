@@ -1,14 +1,15 @@
 //! Checks of the engine's inner numbers.
 
-use pulp::{Arch, Scalar, Simd, WithSimd};
+use pulp::Scalar;
 
+use super::engine::Build;
 use super::group::{Group, Pass};
 use super::steps::Engine;
 use super::world::World;
 use super::{advance, refresh, worlds_per_pass};
 use crate::articulation::{Responses, Structure};
 use crate::collision::CollisionModel;
-use crate::lanes::LANES_MAX;
+use crate::lanes::{LANES_MAX, Simd, WithRegisters, with_registers};
 use crate::mjcf::HUMANOID_XML;
 use crate::model::{Model, Solver};
 
@@ -49,11 +50,9 @@ fn compare_widths(model: Model) {
     let collision = CollisionModel::new(&model, &structure, true);
     let build = || (0..11).map(|number| world(&model, &structure, &collision, number)).collect::<Vec<_>>();
     // Without fused multiply-add, rounding differs: rates of up to 60 rad/s, forces of up to 2000 N.
-    let mut others: Vec<(Box<dyn Engine>, f64)> = vec![(Box::new(Group::new(Scalar, &structure, &collision)), 1.0)];
-    #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
-        others.push((Box::new(Group::new(simd, &structure, &collision)), 0.0));
-    }
+    let scalar: Box<dyn Engine> = Box::new(Group::new(Scalar, &structure, &collision));
+    let others = with_registers(&Build(&structure, &collision)).into_iter().map(|engine| (engine, 0.0));
+    let mut others: Vec<_> = others.chain([(scalar, 1.0)]).collect();
     let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
     for (engine, tolerance) in &mut others {
         let (mut wide, mut single, mut touched) = (build(), build(), 0);
@@ -106,13 +105,13 @@ fn both_solvers_find_the_same_motion() {
 }
 
 /// Steps all worlds, then the first one alone; returns the number of lanes that then differ from the first lane.
-struct StepAllThenOne<'a, 'b>(Pass<'a>, &'b mut [World]);
+struct StepAllThenOne<'a>(Pass<'a>, &'a [World]);
 
-impl WithSimd for StepAllThenOne<'_, '_> {
+impl WithRegisters for StepAllThenOne<'_> {
     type Output = usize;
 
-    fn with_simd<S: Simd>(self, simd: S) -> usize {
-        let Self(pass, worlds) = self;
+    fn run<S: Simd>(&self, simd: S) -> usize {
+        let (pass, mut worlds) = (self.0, self.1.to_vec());
         let mut group = Group::new(simd, pass.structure, pass.collision);
         for count in [S::F32_LANES, 1] {
             let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
@@ -131,9 +130,11 @@ fn lanes_without_a_world_repeat_the_first_one() {
     let model = humanoid();
     let structure = Structure::new(&model);
     let collision = CollisionModel::new(&model, &structure, true);
-    let mut worlds: Vec<_> = (0..LANES_MAX).map(|number| world(&model, &structure, &collision, number)).collect();
+    let worlds: Vec<_> = (0..LANES_MAX).map(|number| world(&model, &structure, &collision, number)).collect();
     let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
-    assert_eq!(Arch::new().dispatch(StepAllThenOne(pass, &mut worlds)), 0);
+    for differing in with_registers(&StepAllThenOne(pass, &worlds)) {
+        assert_eq!(differing, 0);
+    }
 }
 
 #[test]

@@ -2,10 +2,8 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
+use super::{Lanes, Simd};
 use nalgebra::{Matrix3, Vector3};
-use pulp::Simd;
-
-use super::Lanes;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vec3<S: Simd> {

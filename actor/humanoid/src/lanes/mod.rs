@@ -20,9 +20,10 @@ mod linear;
 mod spatial;
 mod trigonometry;
 
+use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use pulp::{Simd, bytemuck};
+use pulp::bytemuck;
 
 pub(crate) use linear::{Mat3, Vec3};
 pub(crate) use spatial::{Force, Inertia, Motion};
@@ -30,10 +31,60 @@ pub(crate) use spatial::{Force, Inertia, Motion};
 /// Most lanes of any machine.
 pub(crate) const LANES_MAX: usize = 16;
 
+/// Registers of a machine. Numbers in memory are aligned like a register: with AVX-512, numbers across two cache lines
+/// took a third more time.
+pub(crate) trait Simd: pulp::Simd {
+    /// Nothing, aligned like a register.
+    type Aligned: Copy + Debug;
+}
+
+macro_rules! registers {
+    ($simd:path, $aligned:ident, $bytes:literal) => {
+        #[derive(Clone, Copy, Debug)]
+        #[repr(align($bytes))]
+        pub(crate) struct $aligned;
+
+        impl Simd for $simd {
+            type Aligned = $aligned;
+        }
+    };
+}
+
+registers!(pulp::Scalar, AlignedScalar, 4);
+#[cfg(target_arch = "x86_64")]
+registers!(pulp::x86::V3, AlignedV3, 32);
+#[cfg(target_arch = "x86_64")]
+registers!(pulp::x86::V4, AlignedV4, 64);
+#[cfg(target_arch = "aarch64")]
+registers!(pulp::aarch64::Neon, AlignedNeon, 16);
+
+/// Something to do with registers of any kind.
+pub(crate) trait WithRegisters {
+    type Output;
+    fn run<S: Simd>(&self, simd: S) -> Self::Output;
+}
+
+/// Does something with all kinds of registers of this machine, widest first.
+pub(crate) fn with_registers<T: WithRegisters>(action: &T) -> Vec<T::Output> {
+    let mut outputs = Vec::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        outputs.extend(pulp::x86::V4::try_new().map(|simd| action.run(simd)));
+        outputs.extend(pulp::x86::V3::try_new().map(|simd| action.run(simd)));
+    }
+    #[cfg(target_arch = "aarch64")]
+    outputs.extend(pulp::aarch64::Neon::try_new().map(|simd| action.run(simd)));
+    if outputs.is_empty() {
+        outputs.push(action.run(pulp::Scalar::new()));
+    }
+    outputs
+}
+
 /// One number per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<S: Simd> {
     simd: S,
+    _aligned: [S::Aligned; 0],
     numbers: S::f32s,
 }
 
@@ -47,7 +98,7 @@ pub(crate) struct Mask<S: Simd> {
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn splat(simd: S, number: f64) -> Self {
-        Self { simd, numbers: simd.splat_f32s(number as f32) }
+        Self { simd, _aligned: [], numbers: simd.splat_f32s(number as f32) }
     }
 
     #[inline(always)]
@@ -117,7 +168,7 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     fn with(self, numbers: S::f32s) -> Self {
-        Self { simd: self.simd, numbers }
+        Self { numbers, ..self }
     }
 }
 

@@ -5,9 +5,7 @@
 
 use std::ops::{AddAssign, SubAssign};
 
-use pulp::Simd;
-
-use super::{Lanes, Mat3, Vec3};
+use super::{Lanes, Mat3, Simd, Vec3};
 
 /// Motion vector: angular part (rad/s or rad/s²) and linear part at O (m/s or m/s²).
 #[derive(Clone, Copy, Debug)]

@@ -2,9 +2,7 @@
 
 use std::f64::consts::FRAC_2_PI;
 
-use pulp::Simd;
-
-use super::Lanes;
+use super::{Lanes, Simd};
 
 /// Adding and subtracting this number rounds to the nearest whole one (for numbers up to 2^22).
 const ROUNDING: f64 = 12_582_912.0;
@@ -64,16 +62,15 @@ fn series<S: Simd>(x: Lanes<S>, factors: &[f64]) -> Lanes<S> {
 
 #[cfg(test)]
 mod tests {
-    use pulp::{Arch, Simd, WithSimd};
-
+    use super::super::{WithRegisters, with_registers};
     use super::*;
 
     struct Table;
 
-    impl WithSimd for Table {
+    impl WithRegisters for Table {
         type Output = ();
 
-        fn with_simd<S: Simd>(self, simd: S) {
+        fn run<S: Simd>(&self, simd: S) {
             for index in -40_000..40_000 {
                 let angle = f64::from((f64::from(index) * 0.1507) as f32);
                 let (sin, cos) = Lanes::splat(simd, angle).sin_cos();
@@ -92,7 +89,7 @@ mod tests {
 
     #[test]
     fn sine_and_cosine_match_those_of_the_standard_library() {
-        Arch::new().dispatch(Table);
-        Table.with_simd(pulp::Scalar);
+        with_registers(&Table);
+        Table.run(pulp::Scalar);
     }
 }

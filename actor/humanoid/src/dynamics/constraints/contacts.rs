@@ -3,12 +3,10 @@
 //! The force of a contact with friction is a sum of non-negative forces along the four edges n ± μ t₁, n ± μ t₂ of a
 //! pyramid. Each edge is a soft one-sided constraint.
 
-use pulp::Simd;
-
 use super::softness::soft_row;
 use crate::articulation::{MassMatrix, Posture, ROOT_DOFS, Structure};
 use crate::collision::{Contact, ContactKey, PairNode};
-use crate::lanes::{Lanes, Mask, Vec3};
+use crate::lanes::{Lanes, Mask, Simd, Vec3};
 
 /// Edges of a friction pyramid.
 pub(super) const EDGES: usize = 4;

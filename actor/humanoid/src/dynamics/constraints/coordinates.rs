@@ -1,11 +1,9 @@
 //! Constraints of hinges, tendons and the root: limits, dry friction, and the limits of servos' torques.
 
-use pulp::Simd;
-
 use super::softness::{SoftRow, soft_row};
 use crate::articulation::Structure;
 use crate::dynamics::forces::HingeForces;
-use crate::lanes::{Lanes, Mask};
+use crate::lanes::{Lanes, Mask, Simd};
 
 /// Largest violation of a limit that counts (rad); absent limits are infinitely far.
 const LIMIT_MAX: f64 = 1e6;

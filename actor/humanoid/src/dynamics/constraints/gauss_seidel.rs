@@ -3,15 +3,13 @@
 //! Rows are whitened (see [`crate::dynamics::mass_matrix`]): a sweep works on accelerations in which every force acts
 //! by one row.
 
-use pulp::Simd;
-
 use super::Problem;
 use super::contacts::{ContactConstraint, ContactRows, EDGES};
 use super::coordinates::CoordinateConstraint;
 use super::rows::Rows;
 use crate::articulation::Structure;
 use crate::collision::PairNode;
-use crate::lanes::{Lanes, Mask};
+use crate::lanes::{Lanes, Mask, Simd};
 
 /// Upper bound of the sweeps over all constraints.
 const SWEEPS_MAX: usize = 100;

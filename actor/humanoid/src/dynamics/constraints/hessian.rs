@@ -3,10 +3,8 @@
 //! Without constraints between branches of the kinematic tree, it has the tree's zeros, and the factorisation from the
 //! leaves to the root keeps them (Featherstone 2008, table 6.3). What couples branches fills in as much as it must.
 
-use pulp::Simd;
-
 use crate::articulation::{MassMatrix, Structure};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd};
 
 /// Set of degrees of freedom.
 type Dofs = u128;

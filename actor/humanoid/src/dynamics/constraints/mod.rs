@@ -13,8 +13,6 @@ mod newton;
 mod rows;
 mod softness;
 
-use pulp::Simd;
-
 use self::contacts::{ContactConstraint, ContactRows, EDGES};
 use self::coordinates::{CoordinateConstraint, CoordinateForces};
 use self::gauss_seidel::GaussSeidel;
@@ -23,7 +21,7 @@ use self::newton::Newton;
 use super::forces::Forces;
 use crate::articulation::{Coordinate, MassMatrix, Posture, Structure};
 use crate::collision::{Collisions, ContactKey, PairNode};
-use crate::lanes::{Lanes, Mask, Vec3};
+use crate::lanes::{Lanes, Mask, Simd, Vec3};
 use crate::model::Solver;
 
 /// Forces of a contact's edges in the step before.

@@ -4,14 +4,12 @@
 //! force of a constraint is −s′: a convex function with a piecewise linear gradient. Each iteration solves with the Hessian
 //! M + Σ s″ JᵀJ, then searches along the solution. Few iterations do, however stiff and redundant the contacts are.
 
-use pulp::Simd;
-
 use super::Problem;
 use super::contacts::EDGES;
 use super::hessian::Hessian;
 use crate::articulation::{Coordinate, MassMatrix, Structure};
 use crate::collision::PairNode;
-use crate::lanes::{Lanes, Mask};
+use crate::lanes::{Lanes, Mask, Simd};
 
 /// Upper bound of the iterations.
 const ITERATIONS_MAX: usize = 50;

@@ -1,9 +1,7 @@
 //! Whitened rows of constraints, and products with them.
 
-use pulp::Simd;
-
 use crate::articulation::{Coordinate, MassMatrix, Structure};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd};
 
 /// Numbers of all rows of a step; a row has one number per degree of freedom that can move its constraint.
 #[derive(Clone, Debug)]

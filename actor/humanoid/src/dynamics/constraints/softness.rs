@@ -3,9 +3,7 @@
 //! A constraint violated by r (negative: beyond the limit) that separates at rate v wants the acceleration −b v − k
 //! d(r) r. It resists the share d(r) of the force against it.
 
-use pulp::Simd;
-
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Simd};
 use crate::model::Softness;
 
 /// Width (m or rad) of the impedance below which it is constant, as in MuJoCo.
