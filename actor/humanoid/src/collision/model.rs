@@ -58,6 +58,8 @@ pub(crate) struct PairNode {
     pub(crate) softness: Softness,
     /// Degrees of freedom that move either body, with their paths, in ascending order.
     pub(crate) dofs: Vec<u32>,
+    /// How many of them move both bodies alike.
+    common_dofs: usize,
     /// Approximate acceleration of the gap per force (1/kg), see [`crate::articulation::Structure::link_responses`].
     pub(crate) response: f64,
 }
@@ -91,6 +93,10 @@ impl CollisionModel {
                 friction: pair.friction,
                 margin_m: pair.margin_m,
                 softness: pair.softness,
+                common_dofs: match bodies {
+                    [Some(first), Some(second)] => structure.common_dofs(first, second),
+                    _ => 0,
+                },
                 dofs,
                 response: links.iter().flatten().map(|link| structure.link_responses[*link]).sum(),
             }
@@ -116,6 +122,14 @@ impl CollisionModel {
     /// Returns whether the ground is the plane at height 0.
     pub(super) fn is_flat(&self) -> bool {
         self.height_field.is_none()
+    }
+}
+
+impl PairNode {
+    /// Returns the degrees of freedom that move one body against the other, or against the ground.
+    #[inline(always)]
+    pub(crate) fn coupled_dofs(&self) -> &[u32] {
+        &self.dofs[self.common_dofs..]
     }
 }
 

@@ -3,6 +3,8 @@
 //! Without constraints between branches of the kinematic tree, it has the tree's zeros, and the factorisation from the
 //! leaves to the root keeps them (Featherstone 2008, table 6.3). What couples branches fills in as much as it must.
 
+use std::ops::Range;
+
 use crate::articulation::{MassMatrix, Structure};
 use crate::lanes::{Lanes, Simd};
 
@@ -17,10 +19,13 @@ pub(super) const DOFS_MAX: usize = Dofs::BITS as usize;
 pub(super) struct Hessian<S: Simd> {
     /// Row k begins at k (k + 1) ÷ 2; only the columns in `columns` have a meaning.
     entries: Vec<Lanes<S>>,
-    /// Columns of each row that are not 0, without the diagonal.
+    /// Columns of each row that may not be 0, without the diagonal, also after [`Self::factor`].
     columns: Vec<Dofs>,
-    /// The columns of each row as a list, from the row's start on, after [`Self::factor`].
-    lists: Vec<u32>,
+    /// The same as ranges, one row after the other, and where each row's begin.
+    ranges: Vec<Range<usize>>,
+    range_starts: Vec<usize>,
+    /// Entries that the mass matrix does not have.
+    filled: Vec<usize>,
 }
 
 /// Removes and returns the first member.
@@ -41,59 +46,83 @@ impl<S: Simd> Hessian<S> {
     /// Creates one for any structure with as many degrees of freedom.
     pub(super) fn new(simd: S, structure: &Structure) -> Self {
         let dofs = structure.dofs();
-        Self { entries: vec![Lanes::zero(simd); start(dofs)], columns: vec![0; dofs], lists: vec![0; start(dofs)] }
+        Self {
+            entries: vec![Lanes::zero(simd); start(dofs)],
+            columns: vec![0; dofs],
+            ranges: Vec::with_capacity(start(dofs)),
+            range_starts: vec![0; dofs + 1],
+            filled: Vec::with_capacity(start(dofs)),
+        }
     }
 
-    /// Becomes the mass matrix, which is not factored.
+    /// Plans for a mass matrix and products over these sets of degrees of freedom, each in ascending order.
+    pub(super) fn plan<'a>(&mut self, structure: &Structure, products: impl Iterator<Item = &'a [u32]>) {
+        for (row, columns) in self.columns.iter_mut().enumerate() {
+            *columns = structure.path(row).iter().fold(0, |all, dof| all | 1 << dof) & !(1 << row);
+        }
+        for dofs in products {
+            dofs.iter().fold(0, |before: Dofs, dof| {
+                self.columns[*dof as usize] |= before;
+                before | 1 << dof
+            });
+        }
+        for row in (0..self.columns.len()).rev() {
+            let (columns, mut rest) = (self.columns[row], self.columns[row]);
+            while let Some(column) = next(&mut rest) {
+                // The columns before this one, which is one of them.
+                self.columns[column] |= columns & !(Dofs::MAX << column);
+            }
+        }
+        self.ranges.clear();
+        self.filled.clear();
+        for (row, columns) in self.columns.iter().enumerate() {
+            let mut added = structure.path(row).iter().fold(*columns, |all, dof| all & !(1 << dof));
+            while let Some(column) = next(&mut added) {
+                self.filled.push(start(row) + column);
+            }
+            let mut rest = *columns;
+            while rest != 0 {
+                let first = rest.trailing_zeros();
+                let end = first + (!(rest >> first)).trailing_zeros();
+                self.ranges.push(first as usize..end as usize);
+                rest &= Dofs::MAX.checked_shl(end).unwrap_or(0);
+            }
+            self.range_starts[row + 1] = self.ranges.len();
+        }
+    }
+
+    /// Becomes the mass matrix, which is not factored; requires [`Self::plan`].
     #[inline(always)]
     pub(super) fn begin(&mut self, structure: &Structure, masses: &MassMatrix<S>) {
+        for index in &self.filled {
+            self.entries[*index] = self.entries[*index].constant(0.0);
+        }
         for dof in 0..structure.dofs() {
-            let row = &mut self.entries[start(dof)..];
-            let mut columns: Dofs = 0;
+            let row = &mut self.entries[start(dof)..=start(dof) + dof];
             for (other, entry) in structure.path(dof).iter().zip(masses.row(structure, dof)) {
                 row[*other as usize] = *entry;
-                columns |= 1 << *other;
             }
-            self.columns[dof] = columns & !(1 << dof);
         }
     }
 
     /// Adds to an entry and the one across the diagonal.
     #[inline(always)]
     pub(super) fn add(&mut self, dof: usize, other: usize, extra: Lanes<S>) {
-        let (row, column) = (dof.max(other), dof.min(other));
-        if row != column {
-            self.extend(row, 1 << column);
-        }
-        self.entries[start(row) + column] += extra;
+        self.entries[start(dof.max(other)) + dof.min(other)] += extra;
     }
 
     /// Adds leftᵀ · right, a symmetric matrix over these degrees of freedom, which ascend.
     #[inline(always)]
     pub(super) fn add_product(&mut self, dofs: &[u32], left: &[[Lanes<S>; 3]], right: &[[Lanes<S>; 3]]) {
-        let mut before: Dofs = 0;
-        for (index, dof) in dofs.iter().enumerate() {
+        for (index, (dof, own)) in dofs.iter().zip(left).enumerate() {
             let row = *dof as usize;
-            self.extend(row, before);
-            before |= 1 << row;
-            let entries = &mut self.entries[start(row)..];
+            let entries = &mut self.entries[start(row)..=start(row) + row];
             for (other, numbers) in dofs[..=index].iter().zip(right) {
                 let entry = &mut entries[*other as usize];
-                for (one, two) in left[index].iter().zip(numbers) {
+                for (one, two) in own.iter().zip(numbers) {
                     *entry = one.mul_add(*two, *entry);
                 }
             }
-        }
-    }
-
-    /// Lets a row have these columns too.
-    #[inline(always)]
-    fn extend(&mut self, row: usize, columns: Dofs) {
-        let mut added = columns & !self.columns[row];
-        self.columns[row] |= added;
-        while let Some(column) = next(&mut added) {
-            let entry = &mut self.entries[start(row) + column];
-            *entry = entry.constant(0.0);
         }
     }
 
@@ -101,47 +130,26 @@ impl<S: Simd> Hessian<S> {
     #[inline(always)]
     pub(super) fn factor(&mut self) {
         for k in (0..self.columns.len()).rev() {
-            let count = self.write_list(k);
-            for position in 0..count {
-                let j = self.lists[start(k) + position] as usize;
-                // The columns before j, which is one of them.
-                let before_j = self.columns[k] & !(Dofs::MAX << j);
-                self.extend(j, before_j);
-            }
+            let ranges = &self.ranges[self.range_starts[k]..self.range_starts[k + 1]];
             let (before, row) = self.entries.split_at_mut(start(k));
-            let list = &self.lists[start(k)..start(k) + count];
             let pivot = row[k].constant(1.0) / row[k];
             row[k] = pivot;
-            for (position, j) in list.iter().enumerate() {
-                let target = &mut before[start(*j as usize)..];
-                let factor = -(row[*j as usize] * pivot);
-                for i in &list[..=position] {
-                    let entry = &mut target[*i as usize];
-                    *entry = factor.mul_add(row[*i as usize], *entry);
+            for j in ranges.iter().flat_map(Range::clone) {
+                let target = &mut before[start(j)..=start(j) + j];
+                let factor = -(row[j] * pivot);
+                for range in ranges.iter().take_while(|range| range.start <= j) {
+                    let range = range.start..range.end.min(j + 1);
+                    for (entry, number) in target[range.clone()].iter_mut().zip(&row[range]) {
+                        *entry = factor.mul_add(*number, *entry);
+                    }
                 }
             }
-            for j in list {
-                row[*j as usize] = row[*j as usize] * pivot;
+            for range in ranges {
+                for number in &mut row[range.clone()] {
+                    *number = *number * pivot;
+                }
             }
         }
-    }
-
-    /// Writes the list of a row's columns. Returns its length.
-    #[inline(always)]
-    fn write_list(&mut self, row: usize) -> usize {
-        let mut columns = self.columns[row];
-        let mut count = 0;
-        while let Some(column) = next(&mut columns) {
-            self.lists[start(row) + count] = column as u32;
-            count += 1;
-        }
-        count
-    }
-
-    /// Returns the columns of a row; requires [`Self::factor`].
-    #[inline(always)]
-    fn list(&self, row: usize) -> &[u32] {
-        &self.lists[start(row)..start(row) + self.columns[row].count_ones() as usize]
     }
 
     /// Replaces a vector by the solution for it; requires [`Self::factor`].
@@ -149,18 +157,22 @@ impl<S: Simd> Hessian<S> {
     pub(super) fn solve(&self, vector: &mut [Lanes<S>]) {
         for k in (0..self.columns.len()).rev() {
             let (row, negative) = (&self.entries[start(k)..], -vector[k]);
-            for j in self.list(k) {
-                let number = &mut vector[*j as usize];
-                *number = row[*j as usize].mul_add(negative, *number);
+            for range in &self.ranges[self.range_starts[k]..self.range_starts[k + 1]] {
+                for (number, entry) in vector[range.clone()].iter_mut().zip(&row[range.clone()]) {
+                    *number = entry.mul_add(negative, *number);
+                }
             }
         }
         for k in 0..self.columns.len() {
             let row = &self.entries[start(k)..];
             let mut sums = [vector[k] * row[k], vector[k].constant(0.0)];
-            for j in self.list(k) {
-                let column = *j as usize;
-                // By column, not by position: a column that only a neighbour's contacts fill must not change the rounding.
-                sums[column % 2] = row[column].mul_sub_from(vector[column], sums[column % 2]);
+            for range in &self.ranges[self.range_starts[k]..self.range_starts[k + 1]] {
+                for (column, (entry, number)) in
+                    range.clone().zip(row[range.clone()].iter().zip(&vector[range.clone()]))
+                {
+                    // By column, not by position: a column that only a neighbour's contacts fill must not change the rounding.
+                    sums[column % 2] = entry.mul_sub_from(*number, sums[column % 2]);
+                }
             }
             vector[k] = sums[0] + sums[1];
         }
@@ -204,20 +216,19 @@ mod tests {
         let (structure, masses) = humanoid();
         let dofs = structure.dofs();
         let lanes = |number: f64| Lanes::splat(Scalar, number);
-        let solution = |fill: Option<(usize, usize)>| {
+        let solution = |fill: Option<(u32, u32)>| {
             let mut hessian = Hessian::new(Scalar, &structure);
+            let filled = fill.map(|(row, column)| [column, row]);
+            hessian.plan(&structure, [&[8, 12, 20][..]].into_iter().chain(filled.iter().map(|dofs| &dofs[..])));
             hessian.begin(&structure, &masses);
             hessian.add_product(&[8, 12, 20], &[[lanes(0.3); 3]; 3], &[[lanes(0.7); 3]; 3]);
-            if let Some((row, column)) = fill {
-                hessian.add(row, column, lanes(0.0));
-            }
             let mut vector: Vec<_> = (0..dofs).map(|dof| lanes((dof as f64).cos())).collect();
             hessian.factor();
             hessian.solve(&mut vector);
             vector.iter().map(|number| number.lane(0)).collect::<Vec<_>>()
         };
         let wanted = solution(None);
-        for row in 0..dofs {
+        for row in 0..dofs as u32 {
             for column in 0..row {
                 assert_eq!(solution(Some((row, column))), wanted, "row {row}, column {column}");
             }
@@ -240,6 +251,7 @@ mod tests {
         let last = dofs as u32 - 1;
         let couplings: [&[u32]; 4] = [&[], structure.path(dofs - 1), &[8, 12, last], &[ROOT_DOFS as u32, 11, 17]];
         for used in 1..=couplings.len() {
+            hessian.plan(&structure, couplings[..used].iter().copied().chain([&[9, 20][..]]));
             hessian.begin(&structure, &masses);
             let mut wanted = dense.clone();
             for coupled in &couplings[..used] {

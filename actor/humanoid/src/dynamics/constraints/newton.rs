@@ -103,6 +103,10 @@ impl<S: Simd> Newton<S> {
     pub(super) fn solve(&mut self, mut problem: Problem<'_, S>, start: &[Lanes<S>], whitened: &mut [Lanes<S>]) {
         let structure = problem.structure;
         self.begin(&problem, start, whitened);
+        let tendons = (0..self.coordinates.len()).map(|index| problem.coordinate(index));
+        let tendons = tendons.filter(|coordinate| coordinate.terms.len() > 1).map(|coordinate| &coordinate.dofs[..]);
+        let contacts = problem.contacts.iter().map(|contact| problem.pairs[contact.key.0 as usize].coupled_dofs());
+        self.hessian.plan(structure, tendons.chain(contacts));
         let constrained = problem.constrained(whitened[0]);
         let mut running = constrained;
         for iteration in 0..=ITERATIONS_MAX {
@@ -217,19 +221,15 @@ impl<S: Simd> Newton<S> {
             }
             let pair = &problem.pairs[contact.key.0 as usize];
             let rows = &problem.rows.numbers[contact.start..contact.start + pair.dofs.len()];
-            self.add_contact(structure, pair, rows, &weights);
+            self.add_contact(pair, rows, &weights);
         }
     }
 
     /// Adds Jᵀ W J of a contact to the Hessian.
     #[inline(always)]
-    fn add_contact(&mut self, structure: &Structure, pair: &PairNode, rows: &[[Lanes<S>; 3]], weights: &Weights<S>) {
-        let common = match pair.bodies {
-            // What moves both bodies does not move one against the other.
-            [Some(first), Some(second)] => structure.common_dofs(first, second),
-            _ => 0,
-        };
-        let (dofs, rows) = (&pair.dofs[common..], &rows[common..]);
+    fn add_contact(&mut self, pair: &PairNode, rows: &[[Lanes<S>; 3]], weights: &Weights<S>) {
+        let dofs = pair.coupled_dofs();
+        let rows = &rows[rows.len() - dofs.len()..];
         self.weighted.clear();
         for row in rows {
             self.weighted.push(weights.times(row));
