@@ -9,7 +9,7 @@
 
 use super::posture::Posture;
 use super::structure::{ROOT_DOFS, Structure};
-use crate::lanes::{Inertia, Lanes, Simd};
+use crate::lanes::{Inertia, Lanes, Simd, add_products};
 
 /// Symmetric matrix over the degrees of freedom with the zeros of a tree.
 ///
@@ -169,10 +169,8 @@ impl<S: Simd> MassMatrix<S> {
         let range = structure.row(i);
         let entries = &self.entries[range.start..range.end - 1];
         let mut sums = [x[0].constant(0.0); 2];
-        for (index, (entry, j)) in entries.iter().zip(structure.path(i)).enumerate() {
-            // Two independent sums, so that one addition need not wait for the one before.
-            sums[index % 2] = entry.mul_add(x[*j as usize], sums[index % 2]);
-        }
+        let path = structure.path(i);
+        add_products(&mut sums, entries, |index| x[path[index] as usize]);
         sums[0] + sums[1]
     }
 }

@@ -202,6 +202,19 @@ impl<S: Simd> Mask<S> {
     }
 }
 
+/// Adds the products of a row with `other` to two sums in turn: one addition need not wait for the one before.
+#[inline(always)]
+pub(crate) fn add_products<S: Simd>(sums: &mut [Lanes<S>; 2], row: &[Lanes<S>], other: impl Fn(usize) -> Lanes<S>) {
+    let (pairs, rest) = row.as_chunks::<2>();
+    for (index, [one, two]) in pairs.iter().enumerate() {
+        sums[0] = one.mul_add(other(2 * index), sums[0]);
+        sums[1] = two.mul_add(other(2 * index + 1), sums[1]);
+    }
+    if let [last] = rest {
+        sums[0] = last.mul_add(other(row.len() - 1), sums[0]);
+    }
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, $function:ident) => {
         impl<S: Simd> $trait for Lanes<S> {

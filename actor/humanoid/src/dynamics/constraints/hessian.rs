@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::articulation::{MassMatrix, Structure};
-use crate::lanes::{Lanes, Simd};
+use crate::lanes::{Lanes, Simd, add_products};
 
 /// Set of degrees of freedom.
 type Dofs = u128;
@@ -167,12 +167,11 @@ impl<S: Simd> Hessian<S> {
             let row = &self.entries[start(k)..];
             let mut sums = [vector[k] * row[k], vector[k].constant(0.0)];
             for range in &self.ranges[self.range_starts[k]..self.range_starts[k + 1]] {
-                for (column, (entry, number)) in
-                    range.clone().zip(row[range.clone()].iter().zip(&vector[range.clone()]))
-                {
-                    // By column, not by position: a column that only a neighbour's contacts fill must not change the rounding.
-                    sums[column % 2] = entry.mul_sub_from(*number, sums[column % 2]);
-                }
+                // By column, not by position: a column that only a neighbour's contacts fill must not change the rounding.
+                sums.rotate_left(range.start % 2);
+                let numbers = &vector[range.clone()];
+                add_products(&mut sums, &row[range.clone()], |index| -numbers[index]);
+                sums.rotate_left(range.start % 2);
             }
             vector[k] = sums[0] + sums[1];
         }

@@ -105,7 +105,8 @@ impl<S: Simd> Newton<S> {
         self.begin(&problem, start, whitened);
         let tendons = (0..self.coordinates.len()).map(|index| problem.coordinate(index));
         let tendons = tendons.filter(|coordinate| coordinate.terms.len() > 1).map(|coordinate| &coordinate.dofs[..]);
-        let contacts = problem.contacts.iter().map(|contact| problem.pairs[contact.key.0 as usize].coupled_dofs());
+        let contacts = problem.contacts.chunk_by(|one, other| one.key.0 == other.key.0);
+        let contacts = contacts.map(|points| problem.pairs[points[0].key.0 as usize].coupled_dofs());
         self.hessian.plan(structure, tendons.chain(contacts));
         let constrained = problem.constrained(whitened[0]);
         let mut running = constrained;

@@ -1,7 +1,7 @@
 //! Whitened rows of constraints, and products with them.
 
 use crate::articulation::{Coordinate, MassMatrix, Structure};
-use crate::lanes::{Lanes, Simd};
+use crate::lanes::{Lanes, Simd, add_products};
 
 /// Numbers of all rows of a step; a row has one number per degree of freedom that can move its constraint.
 #[derive(Clone, Debug)]
@@ -39,9 +39,7 @@ impl<S: Simd> Rows<S> {
     pub(super) fn product(&self, start: usize, dofs: &[u32], whitened: &[Lanes<S>]) -> Lanes<S> {
         let row = &self.numbers[start..start + dofs.len()];
         let mut sums = [whitened[0].constant(0.0); 2];
-        for (index, (number, dof)) in row.iter().zip(dofs).enumerate() {
-            sums[index % 2] = number.mul_add(whitened[*dof as usize], sums[index % 2]);
-        }
+        add_products(&mut sums, row, |index| whitened[dofs[index] as usize]);
         sums[0] + sums[1]
     }
 
