@@ -132,7 +132,9 @@ mod tests {
 
     #[test]
     fn the_first_fragment_holds_at_most_a_batch() {
-        let mut config = RunSettings::of(Config::default());
+        let mut config = Config::default();
+        config.ppo.batch = 8192;
+        let mut config = RunSettings::of(config);
         let sizes = PolicyBundle { observation_size: 45, action_size: 17, ..PolicyBundle::default() };
         let mut bundle = PolicyBundle { fragment_steps: 64, ..sizes };
         let steps =

@@ -20,46 +20,18 @@ import sys
 
 from experiments import report
 
-OBSERVE_V5 = ["env.observation=gymnasium-v5"]
-LEAVE_OUT = {name: f"env.include_{name}_in_observation=false" for name in ("cinert", "cvel", "qfrc_actuator", "cfrc_ext")}
-
-
-def observing(*names):
-    """Returns settings that observe positions, velocities and these blocks of Gymnasium's v5 observation."""
-    return OBSERVE_V5 + [flag for name, flag in LEAVE_OUT.items() if name not in names]
-
-
-# Settings of `walk` when the search began.
-BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
-
 # Changes of each candidate.
 CANDIDATES = {
-    "baseline": [],
-    "network 128–128": ["policy.hidden=[128, 128]"],
-    "network 128–128, 3 epochs": ["policy.hidden=[128, 128]", "ppo.epochs=3"],
-    "network 64–64": ["policy.hidden=[64, 64]"],
-    "network 512–256–128": ["policy.hidden=[512, 256, 128]"],
-    "batch 4096": ["ppo.batch=4096", "rollout.fragment_steps=64", "ppo.minibatch=1024"],
-    "batch 16384": ["ppo.batch=16384", "rollout.fragment_steps=256", "ppo.minibatch=4096"],
-    "minibatch 1024": ["ppo.minibatch=1024"],
-    "minibatch 4096": ["ppo.minibatch=4096"],
-    "3 epochs": ["ppo.epochs=3"],
-    "3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024"],
-    "2 epochs, minibatch 512": ["ppo.epochs=2", "ppo.minibatch=512"],
-    "8 epochs": ["ppo.epochs=8"],
-    "reward × 1": ["ppo.reward_scale=1"],
-    "target KL 0.008": ["ppo.target_kl=0.008"],
-    "target KL 0.032": ["ppo.target_kl=0.032"],
-    "learning rate fixed": ["ppo.target_kl=0"],
-    "first log std −1": ["policy.init_log_std=-1"],
-    "discount 0.98": ["ppo.gamma=0.98"],
-    "λ 0.9": ["ppo.gae_lambda=0.9"],
-    "dense networks": ["ppo.symmetry=off"],
-    "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
-    "sees contacts": observing("cfrc_ext"),
-    "sees torques": observing("qfrc_actuator"),
-    "sees link velocities": observing("cvel"),
-    "sees all of v5": OBSERVE_V5,
+    "default": [],
+    "target KL 0.02": ["ppo.target_kl=0.02"],
+    "target KL 0.02, learning rate 1e-3": ["ppo.target_kl=0.02", "ppo.learning_rate=1e-3", "ppo.learning_rate_max=2e-3"],
+    "target KL 0.02, first log std −1": ["ppo.target_kl=0.02", "policy.init_log_std=-1"],
+    "target KL 0.02, network 512–256": ["ppo.target_kl=0.02", "policy.hidden=[512, 256]"],
+    "3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3"],
+    "minibatch 256, 3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.minibatch=256"],
+    "batch 4096, 3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.batch=4096"],
+    "batch 4096, minibatch 256, 2 passes": ["ppo.target_kl=0.048", "ppo.epochs=2", "ppo.batch=4096", "ppo.minibatch=256"],
+    "dense networks": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.batch=4096", "ppo.symmetry=off"],
 }
 
 
@@ -102,7 +74,7 @@ def train(binary, root, name, seed, steps):
         return
     if folder.exists():
         shutil.rmtree(folder)
-    train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps)], [*BASE, *CANDIDATES[name]])
+    train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps)], CANDIDATES[name])
     done.write_text(json.dumps({"name": name, "seed": seed, "steps": steps}) + "\n", encoding="utf-8")
     print(f"{name}, seed {seed}: {summary(measure(folder))}", file=sys.stderr)
 

@@ -49,7 +49,7 @@ fn every_configuration_key_is_in_the_reference() {
         let row = page.lines().find(|line| line.starts_with(&begin)).expect(key.key);
         assert!(row.contains(key.doc), "{row}");
     }
-    assert!(page.contains("\n- `ppo.target_kl = 0.048` (0 or more): ") && page.contains("*Live.*"), "{page}");
+    assert!(page.contains("\n- `ppo.target_kl = 0.04` (0 or more): ") && page.contains("*Live.*"), "{page}");
 }
 
 /// Returns the subcommands that `--help` of `command` lists, recursively.

@@ -193,7 +193,9 @@ pub(crate) mod tests {
         let message = |pair: &str| set(pair).unwrap_err().to_string();
         assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
         assert!(message("ppo.learning_rat=1").contains("did you mean `ppo.learning_rate`?"));
-        assert!(message("ppo.minibatch=9000").contains("0 to ppo.batch, which is 8192"));
+        let mut source = ConfigSource::default();
+        source.text("[ppo]\nbatch = 8192\nminibatch = 9000", "a file").unwrap();
+        assert!(source.build().unwrap_err().to_string().contains("0 to ppo.batch, which is 8192"));
         assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(

@@ -35,7 +35,10 @@ impl Policy {
         if found != expected {
             return Err(ParameterError::Count { found, expected });
         }
-        check_parameters(networks.shape(), &networks.dense(&parameters))?;
+        if parameters.iter().any(|parameter| !parameter.is_finite()) {
+            // Only the dense networks have names for them.
+            check_parameters(networks.shape(), &networks.dense(&parameters))?;
+        }
         let (actor, critic, log_std) =
             (networks.actor(), networks.critic(), networks.log_std(&parameters).into_owned());
         Ok(Self { networks, actor, critic, parameters, log_std, pool: None, on_gpu: None })

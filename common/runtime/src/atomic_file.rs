@@ -42,23 +42,6 @@ pub fn write_quickly(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Gives the contents of a file that is never written again another name, in place of the file that has it. A crash at any
-/// moment leaves the old file or the new one.
-///
-/// # Errors
-/// The system's error, as of a file system without hard links.
-pub fn link(from: &Path, to: &Path) -> io::Result<()> {
-    with_temporary(to, |temporary, _| {
-        fs::remove_file(temporary)?;
-        fs::hard_link(from, temporary)?;
-        fs::rename(temporary, to)?;
-        // If both names are the same file already, renaming does nothing.
-        let _ = fs::remove_file(temporary);
-        Ok(())
-    })
-    .map(drop)
-}
-
 /// Where a path leads.
 #[derive(Debug)]
 pub enum Destination {

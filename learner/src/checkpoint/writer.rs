@@ -13,8 +13,6 @@ use super::{CheckpointError, TrainingState, encoding, numbered};
 
 /// Name of the newest checkpoint in a folder.
 const LATEST: &str = "latest.bundle";
-/// Name of the best checkpoint in a folder or a store.
-const BEST: &str = "best.bundle";
 /// Shortest time between two names that are durable.
 const NAME_EVERY: Duration = Duration::from_secs(1);
 /// Folder of checkpoints in a store.
@@ -88,17 +86,9 @@ impl CheckpointWriter {
         (self.every_updates, self.keep) = (every_updates, keep);
     }
 
-    /// Makes the newest state, which is given encoded, the best one.
-    pub fn save_latest_as_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        match &self.place {
-            Place::Folder(folder) if atomic_file::link(&folder.join(LATEST), &folder.join(BEST)).is_ok() => Ok(()),
-            _ => self.save_best(bytes),
-        }
-    }
-
     /// Writes an encoded state as `best.bundle`.
     pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        self.write(BEST, bytes)
+        self.write("best.bundle", bytes)
     }
 
     fn place_of(&self, name: &str) -> String {

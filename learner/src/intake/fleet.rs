@@ -194,12 +194,14 @@ impl Actor {
 
 #[cfg(test)]
 mod tests {
-    use treadmill_config::Config;
+    use treadmill_config::{Config, PpoConfig};
 
     use super::*;
 
     fn fleet() -> FleetPlan {
-        FleetPlan::new(HorizonRule::new(&Config::default(), 45, 17), 64)
+        let ppo = PpoConfig { batch: 8192, ..PpoConfig::default() };
+        let config = Config { ppo, ..Config::default() };
+        FleetPlan::new(HorizonRule::new(&config, 45, 17), 64)
     }
 
     /// Effort of a fragment of 10 steps by 8 environments, each step taking `step_s`.

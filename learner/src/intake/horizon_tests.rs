@@ -2,8 +2,14 @@ use proptest::prelude::*;
 
 use super::*;
 
+fn config() -> Config {
+    let mut config = Config::default();
+    config.ppo.batch = 8192;
+    config
+}
+
 fn rule() -> HorizonRule {
-    HorizonRule::new(&Config::default(), 45, 17)
+    HorizonRule::new(&config(), 45, 17)
 }
 
 fn fleet(members: &[(usize, f64)]) -> Vec<u32> {
@@ -41,7 +47,7 @@ fn beyond_256_environments_batches_grow_and_horizons_shrink_slowly() {
     assert_eq!((rule.nominal(2048), rule.round_rows(2048)), (16, 32_768), "four batches");
     assert_eq!((rule.nominal(4096), rule.round_rows(4096)), (8, 32_768));
     assert_eq!(rule.nominal(65_536), STEPS_MIN as u32, "and batches grow again");
-    let mut config = Config::default();
+    let mut config = config();
     config.ppo.batch_max = 10_000;
     assert_eq!(HorizonRule::new(&config, 45, 17).round_rows(4096), 10_000, "at most ppo.batch_max");
 }
@@ -58,7 +64,7 @@ fn an_actor_at_half_speed_gets_half_the_horizon() {
 
 #[test]
 fn a_configured_horizon_is_kept() {
-    let mut config = Config::default();
+    let mut config = config();
     config.rollout.fragment_steps = 24;
     let rule = HorizonRule::new(&config, 45, 17);
     assert_eq!(horizons(&rule, &[(8, 1.0), (8, 0.5)]), [24, 24]);
@@ -67,7 +73,7 @@ fn a_configured_horizon_is_kept() {
 
 #[test]
 fn a_fragment_fits_into_a_message() {
-    let rule = HorizonRule::new(&Config::default(), 4096, 17);
+    let rule = HorizonRule::new(&config(), 4096, 17);
     let [steps] = horizons(&rule, &[(64, 1.0)])[..] else { panic!("one actor") };
     let bytes = steps as usize * 64 * (2 * 4096 + 17 + 2) * 4;
     assert!(steps < 128 && bytes <= FRAGMENT_BYTES_MAX, "{steps} steps");

@@ -121,26 +121,26 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Work of the training thread besides the update: validating fragments, saving, publishing, logging.
     "time/serial_s", "s", "0.018" => Always(|r| r.durations.serial.as_secs_f64());
 
-    /// Speed that simulation would allow alone.
+    /// Simulation.
     "parts/simulation", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("simulation"));
-    /// Speed that the networks of the actors would allow alone.
+    /// Networks of the actors.
     "parts/inference", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("inference"));
-    /// Speed that encoding of fragments would allow alone.
+    /// Encoding of fragments.
     "parts/encoding", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("encoding"));
-    /// Speed that the bus: what remains of a round without the other parts would allow alone.
+    /// What remains of a round: transport and waiting.
     "parts/bus", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("bus"));
-    /// Speed that normalisation, advantages and values of the learner would allow alone.
+    /// Normalisation, advantages, values.
     "parts/batch", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("batch"));
-    /// Speed that gradient steps would allow alone.
+    /// Gradient steps.
     "parts/update", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("update"));
-    /// Speed that checkpoints would allow alone.
+    /// Checkpoints.
     "parts/checkpoint", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("checkpoint"));
-    /// Speed that publishing of policies would allow alone.
+    /// Publishing.
     "parts/publishing", "steps/s", "" => Sometimes(|r| r.parts.steps_per_s("publishing"));
-    /// Speed if actors and learner worked in turn without waiting for the bus.
+    /// All parts but the bus in turn.
     "parts/ideal", "steps/s", "" => Sometimes(|r| r.parts.ideal_steps_per_s());
     /// Speed, divided by `parts/ideal`.
-    IMPORTANT "parts/efficiency", "share", "" => Sometimes(|r| r.parts.efficiency());
+    "parts/efficiency", "share", "" => Sometimes(|r| r.parts.efficiency());
 
     /// KL divergence from the policy before the update to the one after its last epoch, in closed form. Over
     /// twice `ppo.target_kl`, the learning rate is divided by 1.5; under half of it, multiplied.

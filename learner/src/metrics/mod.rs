@@ -40,7 +40,7 @@ pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use history::History;
 pub use jsonl::JsonLines;
-pub use parts::{PARTS, Part, PartMeter, PartTimes};
+pub use parts::{PARTS, PartMeter, PartTimes, TrainingPart};
 pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::{MetricsReport, ReportOptions};

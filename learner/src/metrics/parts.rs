@@ -11,7 +11,7 @@ const UPDATES: f64 = 50.0;
 
 /// Part of training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct TrainingPart {
     /// Name, also the last part of its metric's tag.
     pub name: &'static str,
     /// Advice for a run that it limits.
@@ -19,15 +19,15 @@ pub struct Part {
 }
 
 /// Parts in the order of the data.
-pub const PARTS: [Part; 8] = [
-    Part { name: "simulation", help: "add actors or cores (--actors), or set env.substeps lower" },
-    Part { name: "inference", help: "add actors (--actors), or set policy.hidden narrower" },
-    Part { name: "encoding", help: "set rollout.observation_precision=f16" },
-    Part { name: "bus", help: "give each actor more environments (--envs), or set learner.mode=async" },
-    Part { name: "batch", help: "set policy.hidden narrower, or learner.threads higher" },
-    Part { name: "update", help: "set ppo.epochs lower, ppo.minibatch larger, or learner.threads higher" },
-    Part { name: "checkpoint", help: "put --run-dir on a faster disk" },
-    Part { name: "publishing", help: "set policy.hidden narrower" },
+pub const PARTS: [TrainingPart; 8] = [
+    TrainingPart { name: "simulation", help: "add actors or cores (--actors), or set env.substeps lower" },
+    TrainingPart { name: "inference", help: "add actors (--actors), or set policy.hidden narrower" },
+    TrainingPart { name: "encoding", help: "set rollout.observation_precision=f16" },
+    TrainingPart { name: "bus", help: "give each actor more environments (--envs), or set learner.mode=async" },
+    TrainingPart { name: "batch", help: "set policy.hidden narrower, or learner.threads higher" },
+    TrainingPart { name: "update", help: "set ppo.epochs lower, ppo.minibatch larger, or learner.threads higher" },
+    TrainingPart { name: "checkpoint", help: "put --run-dir on a faster disk" },
+    TrainingPart { name: "publishing", help: "set policy.hidden narrower" },
 ];
 
 /// Seconds per environment step of each of [`PARTS`]; 0 where unknown.
@@ -59,7 +59,7 @@ impl PartTimes {
     }
 
     /// Returns the part that takes most of the time; `None` before actors have reported.
-    pub fn limit(&self) -> Option<Part> {
+    pub fn limit(&self) -> Option<TrainingPart> {
         let slowest = (0..PARTS.len()).max_by(|a, b| self.seconds[*a].total_cmp(&self.seconds[*b]))?;
         (self.seconds[0] > 0.0).then(|| PARTS[slowest])
     }

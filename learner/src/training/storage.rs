@@ -66,11 +66,6 @@ impl Storage {
         Ok(())
     }
 
-    /// Makes the newest checkpoint the best one.
-    pub(super) fn save_latest_as_best(&self) -> Result<(), TrainingError> {
-        Ok(self.retry.until_written(|| self.checkpoints.save_latest_as_best(&self.saved))?)
-    }
-
     /// Saves an encoded state as the best one.
     pub(super) fn save_best(&self, state: &[u8]) -> Result<(), TrainingError> {
         Ok(self.retry.until_written(|| self.checkpoints.save_best(state))?)
