@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rand::{Rng, RngExt};
-use treadmill_policy::{NetworkShape, Policy, gaussian};
+use treadmill_policy::NetworkShape;
 
 /// `S` transitions, in any order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,35 +37,6 @@ impl Batch {
         self.returns.is_empty()
     }
 
-    /// Returns the batch of some rows.
-    pub(crate) fn part(&self, rows: &[u32], shape: &NetworkShape) -> Self {
-        Self {
-            observations: picked(&self.observations, shape.observation, rows),
-            actions: picked(&self.actions, shape.action, rows),
-            means: picked(&self.means, shape.action, rows),
-            log_probs: picked(&self.log_probs, 1, rows),
-            weights: picked(&self.weights, 1, rows),
-            advantages: picked(&self.advantages, 1, rows),
-            returns: picked(&self.returns, 1, rows),
-            values: picked(&self.values, 1, rows),
-        }
-    }
-
-    /// Makes another policy the one that the update starts from, and weights each action by its probability under it
-    /// relative to the policy before.
-    ///
-    /// # Errors
-    /// If the networks cannot be evaluated.
-    pub(crate) fn follow(&mut self, policy: &Policy) -> candle_core::Result<()> {
-        policy.means(&self.observations, self.len(), &mut self.means)?;
-        let log_probs = gaussian::log_probabilities(&self.actions, &self.means, policy.log_std());
-        for ((weight, new), old) in self.weights.iter_mut().zip(&log_probs).zip(&self.log_probs) {
-            *weight *= importance_weight(*new, *old);
-        }
-        self.log_probs = log_probs;
-        Ok(())
-    }
-
     /// Returns name, numbers and width of each field.
     fn fields(&self, shape: &NetworkShape) -> [(&'static str, &[f32], usize); 8] {
         [
@@ -91,15 +62,6 @@ impl Batch {
         let is_bad = |numbers: &[f32]| numbers.iter().any(|number| !number.is_finite());
         self.fields(shape).into_iter().find_map(|(name, numbers, _)| is_bad(numbers).then_some(name))
     }
-}
-
-/// Returns `min(1, π(a|s) / μ(a|s))`, given the log-probabilities under the newest policy π and the one that acted, μ.
-///
-/// The decoupled objective keeps the update near the newest policy, and weights each action by its probability under
-/// the newest policy relative to the one that acted (Hilton et al. 2021, "Batch size-invariance for policy
-/// optimization", arXiv:2110.00641, equation 2; the weight is truncated at 1).
-pub(crate) fn importance_weight(new: f32, old: f32) -> f32 {
-    (new - old).min(0.0).exp()
 }
 
 /// Returns the given rows of a plane, `[S, width]`.

@@ -20,7 +20,7 @@ use treadmill_proto::{
 };
 
 use crate::{
-    batch::{Batch, importance_weight},
+    batch::Batch,
     gae::{self, Advantages, Steps},
     plausibility::{self, FragmentNumbers, Implausible},
 };
@@ -225,6 +225,15 @@ impl BatchBuilder<'_> {
         }
         plausibility::implausible(&parts, self.policy.log_std(), value_moments)
     }
+}
+
+/// Returns `min(1, π(a|s) / μ(a|s))`, given the log-probabilities under the newest policy π and the one that acted, μ.
+///
+/// The decoupled objective keeps the update near the newest policy, and weights each action by its probability under
+/// the newest policy relative to the one that acted (Hilton et al. 2021, "Batch size-invariance for policy
+/// optimization", arXiv:2110.00641, equation 2; the weight is truncated at 1).
+fn importance_weight(new: f32, old: f32) -> f32 {
+    (new - old).min(0.0).exp()
 }
 
 fn flagged(fragment: &Fragment, flag: u8) -> Vec<bool> {

@@ -92,36 +92,11 @@ impl Ppo {
             return Err(UpdateError::NonFinite { what });
         }
         let before = state.clone();
-        let result = self.run_parts(state, batch, epochs);
+        let result = self.run_epochs(state, batch, epochs);
         if result.is_err() {
             *state = PpoState { shuffle: state.shuffle.clone(), ..before };
         }
         result
-    }
-
-    /// Learns from a batch of several times `ppo.batch` in as many parts, which take the place of as many batches: each is
-    /// some of the rows, relative to the policy that the part before it left. So the number of gradient steps and the
-    /// distance that each part moves the policy do not depend on the size of a fleet.
-    fn run_parts(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
-        let mut rows: Vec<u32> = (0..batch.len() as u32).collect();
-        let parts: Vec<_> = match self.config.batch {
-            0 => Vec::new(),
-            size => minibatches(rows.len(), size as usize).collect(),
-        };
-        if parts.len() < 2 {
-            return self.run_epochs(state, batch, epochs);
-        }
-        shuffle(&mut rows, &mut state.shuffle);
-        let mut stats = UpdateStats::default();
-        for range in parts {
-            let is_first = range.start == 0;
-            let mut part = batch.part(&rows[range], state.networks.shape());
-            if !is_first {
-                part.follow(&self.policy(state)?)?;
-            }
-            stats.merge(&self.run_epochs(state, &part, epochs)?);
-        }
-        Ok(stats)
     }
 
     fn run_epochs(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {

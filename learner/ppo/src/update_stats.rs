@@ -76,26 +76,6 @@ impl UpdateStats {
         self.samples += rows as u64;
     }
 
-    /// Adds the statistics of the next part of a batch: means become means over both, weighted by samples.
-    pub(crate) fn merge(&mut self, next: &Self) {
-        let samples = self.samples + next.samples;
-        let share = next.samples as f64 / samples.max(1) as f64;
-        for (mean, added) in [
-            (&mut self.policy_loss, next.policy_loss),
-            (&mut self.value_loss, next.value_loss),
-            (&mut self.entropy, next.entropy),
-            (&mut self.bounds_loss, next.bounds_loss),
-            (&mut self.approx_kl, next.approx_kl),
-            (&mut self.clip_fraction, next.clip_fraction),
-            (&mut self.explained_variance, next.explained_variance),
-            (&mut self.grad_norm, next.grad_norm),
-        ] {
-            *mean += share * (added - *mean);
-        }
-        (self.learning_rate, self.std, self.samples) = (next.learning_rate, next.std, samples);
-        self.gradient_steps += next.gradient_steps;
-    }
-
     /// Converts sums to means.
     pub(crate) fn finish(&mut self, log_std: &[f32], learning_rate: f64) {
         let samples = self.samples.max(1) as f64;
