@@ -172,10 +172,7 @@ fn crates_are_named_only_in_their_folder() {
     assert_named_only_in(&["bincode::"], &["learner/src/checkpoint/encoding.rs"]);
     assert_named_only_in(&["zenoh::"], &["common/bus/", "tests/hostile/"]);
     assert_named_only_in(&["rapier3d::", "parry3d::"], &["actor/humanoid/src/collision"]);
-    assert_named_only_in(
-        &["pulp::"],
-        &["actor/humanoid/src/articulation", "actor/humanoid/src/dynamics", "actor/humanoid/src/lanes"],
-    );
+    assert_named_only_in(&["pulp::"], &["actor/humanoid/src/lanes"]);
     assert_named_only_in(&["rerun::"], &["watch/"]);
     assert_named_only_in(&["object_store::"], &["common/store/"]);
 }

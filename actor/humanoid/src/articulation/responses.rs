@@ -3,12 +3,11 @@
 //! MuJoCo derives the softness of constraints from them (`body_invweight0`, `dof_invweight0`).
 
 use nalgebra::Vector3;
-use pulp::Scalar;
 
 use super::mass_matrix::MassMatrix;
 use super::posture::{BodyMasses, Posture};
 use super::structure::{Coordinate, ROOT_DOFS, Structure};
-use crate::lanes::{Lanes, Vec3};
+use crate::lanes::{Lanes, Scalar, Vec3};
 use crate::model::{Model, Softness};
 
 impl Structure {

@@ -58,8 +58,8 @@ pub(crate) struct PairNode {
     pub(crate) softness: Softness,
     /// Degrees of freedom that move either body, with their paths, in ascending order.
     pub(crate) dofs: Vec<u32>,
-    /// How many of them move both bodies alike.
-    common_dofs: usize,
+    /// Those of them that move one body against the other, or against the ground.
+    pub(crate) coupled_dofs: Vec<u32>,
     /// Approximate acceleration of the gap per force (1/kg), see [`crate::articulation::Structure::link_responses`].
     pub(crate) response: f64,
 }
@@ -85,6 +85,10 @@ impl CollisionModel {
                 bodies.iter().flatten().flat_map(|body| structure.path_of_body(*body)).copied().collect();
             dofs.sort_unstable();
             dofs.dedup();
+            let common = match bodies {
+                [Some(first), Some(second)] => structure.common_dofs(first, second),
+                _ => 0,
+            };
             PairNode {
                 first,
                 second,
@@ -93,10 +97,7 @@ impl CollisionModel {
                 friction: pair.friction,
                 margin_m: pair.margin_m,
                 softness: pair.softness,
-                common_dofs: match bodies {
-                    [Some(first), Some(second)] => structure.common_dofs(first, second),
-                    _ => 0,
-                },
+                coupled_dofs: dofs[common..].to_vec(),
                 dofs,
                 response: links.iter().flatten().map(|link| structure.link_responses[*link]).sum(),
             }
@@ -122,14 +123,6 @@ impl CollisionModel {
     /// Returns whether the ground is the plane at height 0.
     pub(super) fn is_flat(&self) -> bool {
         self.height_field.is_none()
-    }
-}
-
-impl PairNode {
-    /// Returns the degrees of freedom that move one body against the other, or against the ground.
-    #[inline(always)]
-    pub(crate) fn coupled_dofs(&self) -> &[u32] {
-        &self.dofs[self.common_dofs..]
     }
 }
 

@@ -2,14 +2,12 @@
 //!
 //! The integrator is the implicit midpoint rule, of second order: forces and constraints are those of the step's middle.
 
-use pulp::NullaryFnOnce;
-
 use super::exchange::set_lane;
 use super::group::{Group, Pass, Worlds};
 use super::momentum::{Momentum, is_free};
 use crate::articulation::{ROOT_DOFS, compose, integrate};
 use crate::collision::Root;
-use crate::lanes::{Force, Lanes, Simd, Vec3};
+use crate::lanes::{Force, Lanes, NullaryFnOnce, Simd, Vec3};
 
 /// Workspace that steps several worlds of one structure.
 pub(crate) trait Engine {

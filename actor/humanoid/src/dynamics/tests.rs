@@ -1,7 +1,5 @@
 //! Checks of the engine's inner numbers.
 
-use pulp::Scalar;
-
 use super::engine::Build;
 use super::group::{Group, Pass};
 use super::steps::Engine;
@@ -9,7 +7,7 @@ use super::world::World;
 use super::{advance, refresh, worlds_per_pass};
 use crate::articulation::{Responses, Structure};
 use crate::collision::CollisionModel;
-use crate::lanes::{LANES_MAX, Simd, WithRegisters, with_registers};
+use crate::lanes::{LANES_MAX, Scalar, with_registers};
 use crate::mjcf::HUMANOID_XML;
 use crate::model::{Model, Solver};
 
@@ -102,39 +100,6 @@ fn both_solvers_find_the_same_motion() {
         }
     }
     assert!(touched > 40, "{touched} worlds with contacts");
-}
-
-/// Steps all worlds, then the first one alone; returns the number of lanes that then differ from the first lane.
-struct StepAllThenOne<'a>(Pass<'a>, &'a [World]);
-
-impl WithRegisters for StepAllThenOne<'_> {
-    type Output = usize;
-
-    fn run<S: Simd>(&self, simd: S) -> usize {
-        let (pass, mut worlds) = (self.0, self.1.to_vec());
-        let mut group = Group::new(simd, pass.structure, pass.collision);
-        for count in [S::F32_LANES, 1] {
-            let mut chosen: [Option<&mut World>; LANES_MAX] = Default::default();
-            for (place, world) in chosen.iter_mut().zip(worlds.iter_mut().take(count)) {
-                *place = Some(world);
-            }
-            group.advance(pass, &mut chosen, 4);
-        }
-        let differs = |lane: &usize| group.moved.iter().any(|number| number.lane(*lane) != number.lane(0));
-        (0..S::F32_LANES).filter(differs).count()
-    }
-}
-
-#[test]
-fn lanes_without_a_world_repeat_the_first_one() {
-    let model = humanoid();
-    let structure = Structure::new(&model);
-    let collision = CollisionModel::new(&model, &structure, true);
-    let worlds: Vec<_> = (0..LANES_MAX).map(|number| world(&model, &structure, &collision, number)).collect();
-    let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
-    for differing in with_registers(&StepAllThenOne(pass, &worlds)) {
-        assert_eq!(differing, 0);
-    }
 }
 
 #[test]

@@ -26,6 +26,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use pulp::bytemuck;
 
 pub(crate) use linear::{Mat3, Vec3};
+pub(crate) use pulp::{NullaryFnOnce, Scalar};
 pub(crate) use spatial::{Force, Inertia, Motion};
 
 /// Most lanes of any machine.
@@ -50,7 +51,7 @@ macro_rules! registers {
     };
 }
 
-registers!(pulp::Scalar, AlignedScalar, 4);
+registers!(Scalar, AlignedScalar, 4);
 #[cfg(target_arch = "x86_64")]
 registers!(pulp::x86::V3, AlignedV3, 32);
 #[cfg(target_arch = "x86_64")]
@@ -75,7 +76,7 @@ pub(crate) fn with_registers<T: WithRegisters>(action: &T) -> Vec<T::Output> {
     #[cfg(target_arch = "aarch64")]
     outputs.extend(pulp::aarch64::Neon::try_new().map(|simd| action.run(simd)));
     if outputs.is_empty() {
-        outputs.push(action.run(pulp::Scalar::new()));
+        outputs.push(action.run(Scalar::new()));
     }
     outputs
 }

@@ -62,7 +62,7 @@ fn series<S: Simd>(x: Lanes<S>, factors: &[f64]) -> Lanes<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{WithRegisters, with_registers};
+    use super::super::{Scalar, WithRegisters, with_registers};
     use super::*;
 
     struct Table;
@@ -90,6 +90,6 @@ mod tests {
     #[test]
     fn sine_and_cosine_match_those_of_the_standard_library() {
         with_registers(&Table);
-        Table.run(pulp::Scalar);
+        Table.run(Scalar);
     }
 }

@@ -93,6 +93,16 @@ fn armature_adds_inertia_to_the_hinge_only() {
 }
 
 #[test]
+fn a_slow_hinge_keeps_its_rate() {
+    // At 1 rad a physics step turns it by less than single precision resolves.
+    let mut body = pair("", 4);
+    start(&mut body, 1.0, 1e-5);
+    advance(&mut body, 1000, &[0.0]);
+    let turned_rad = body.joint_angles()[0] - 1.0;
+    assert!((turned_rad / (1e-5 * 1000.0 * CONTROL_STEP_S) - 1.0).abs() < 1e-4, "it turned by {turned_rad} rad");
+}
+
+#[test]
 fn a_spring_comes_to_rest_at_its_rest_angle_with_and_without_a_range() {
     for (joint, wanted) in [
         ("stiffness=\"5\" damping=\"0.3\" springref=\"-35\"", -35f64),

@@ -24,8 +24,6 @@ pub(super) struct Hessian<S: Simd> {
     /// The same as ranges, one row after the other, and where each row's begin.
     ranges: Vec<Range<usize>>,
     range_starts: Vec<usize>,
-    /// Entries that the mass matrix does not have.
-    filled: Vec<usize>,
 }
 
 /// Removes and returns the first member.
@@ -51,7 +49,6 @@ impl<S: Simd> Hessian<S> {
             columns: vec![0; dofs],
             ranges: Vec::with_capacity(start(dofs)),
             range_starts: vec![0; dofs + 1],
-            filled: Vec::with_capacity(start(dofs)),
         }
     }
 
@@ -74,12 +71,7 @@ impl<S: Simd> Hessian<S> {
             }
         }
         self.ranges.clear();
-        self.filled.clear();
         for (row, columns) in self.columns.iter().enumerate() {
-            let mut added = structure.path(row).iter().fold(*columns, |all, dof| all & !(1 << dof));
-            while let Some(column) = next(&mut added) {
-                self.filled.push(start(row) + column);
-            }
             let mut rest = *columns;
             while rest != 0 {
                 let first = rest.trailing_zeros();
@@ -94,11 +86,12 @@ impl<S: Simd> Hessian<S> {
     /// Becomes the mass matrix, which is not factored; requires [`Self::plan`].
     #[inline(always)]
     pub(super) fn begin(&mut self, structure: &Structure, masses: &MassMatrix<S>) {
-        for index in &self.filled {
-            self.entries[*index] = self.entries[*index].constant(0.0);
-        }
         for dof in 0..structure.dofs() {
             let row = &mut self.entries[start(dof)..=start(dof) + dof];
+            let zero = row[dof].constant(0.0);
+            for range in &self.ranges[self.range_starts[dof]..self.range_starts[dof + 1]] {
+                row[range.clone()].fill(zero);
+            }
             for (other, entry) in structure.path(dof).iter().zip(masses.row(structure, dof)) {
                 row[*other as usize] = *entry;
             }
@@ -180,8 +173,8 @@ impl<S: Simd> Hessian<S> {
 
 #[cfg(test)]
 mod tests {
+    use crate::lanes::Scalar;
     use nalgebra::{DMatrix, DVector};
-    use pulp::Scalar;
 
     use super::*;
     use crate::articulation::{Posture, ROOT_DOFS};

@@ -106,7 +106,7 @@ impl<S: Simd> Newton<S> {
         let tendons = (0..self.coordinates.len()).map(|index| problem.coordinate(index));
         let tendons = tendons.filter(|coordinate| coordinate.terms.len() > 1).map(|coordinate| &coordinate.dofs[..]);
         let contacts = problem.contacts.chunk_by(|one, other| one.key.0 == other.key.0);
-        let contacts = contacts.map(|points| problem.pairs[points[0].key.0 as usize].coupled_dofs());
+        let contacts = contacts.map(|points| &problem.pairs[points[0].key.0 as usize].coupled_dofs[..]);
         self.hessian.plan(structure, tendons.chain(contacts));
         let constrained = problem.constrained(whitened[0]);
         let mut running = constrained;
@@ -229,7 +229,7 @@ impl<S: Simd> Newton<S> {
     /// Adds Jᵀ W J of a contact to the Hessian.
     #[inline(always)]
     fn add_contact(&mut self, pair: &PairNode, rows: &[[Lanes<S>; 3]], weights: &Weights<S>) {
-        let dofs = pair.coupled_dofs();
+        let dofs = &pair.coupled_dofs;
         let rows = &rows[rows.len() - dofs.len()..];
         self.weighted.clear();
         for row in rows {

@@ -73,7 +73,7 @@ fn to_power<S: Simd>(mut x: Lanes<S>, power: f64) -> Lanes<S> {
 
 #[cfg(test)]
 mod tests {
-    use pulp::Scalar;
+    use crate::lanes::Scalar;
 
     use super::*;
 
