@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 
 use treadmill_bus::Credentials;
 use treadmill_config::{ChosenTask, Config};
+use treadmill_humanoid::worlds_per_pass;
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
@@ -46,6 +47,9 @@ pub fn print_start(
         None => {
             say(&format!("  actors    none yet; start some by: {}", actor_command(setup, &endpoints[0], credentials)))
         }
+    }
+    if let Some(hint) = actors.filter(|_| !config.is_external()).and_then(|actors| idle_lanes(config, actors)) {
+        say(&format!("            {hint}"));
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(tls_flag).unwrap_or_default();
@@ -118,6 +122,17 @@ pub fn print_finished(state: &TrainingState, resumed_by: &str) {
         thousands(steps),
         steps.saturating_mul(2)
     ));
+}
+
+/// Returns a hint if the processor could simulate more environments of each actor in the same time.
+fn idle_lanes(config: &Config, actors: u32) -> Option<String> {
+    let (lanes, envs) = (worlds_per_pass() as u32, config.rollout.envs.div_ceil(actors.max(1)));
+    let filled = envs.next_multiple_of(lanes);
+    (envs < filled).then(|| {
+        format!(
+            "{envs} environments each: the processor simulates {lanes} at once, so {filled} take hardly longer (--envs)"
+        )
+    })
 }
 
 /// Prints the result of the run and the commands to use next; `resumed_by` resumes the run, whose state is in the store

@@ -204,16 +204,16 @@ impl Mlp {
             let above_rows = Matrix::row_major(above, layer.output);
             for block in &layer.blocks {
                 let sizes = [block.output.len(), block.input.len(), rows];
-                let left = above_rows.from_column(block.output.start).transposed();
+                let left = above_rows.skip_columns(block.output.start).transposed();
                 let weight = &mut gradient[block.weight.clone()];
-                multiply(sizes, left, seen.from_column(block.input.start), weight, block.input.len(), accumulate);
+                multiply(sizes, left, seen.skip_columns(block.input.start), weight, block.input.len(), accumulate);
             }
             if i > 0 {
                 below.resize(rows * layer.input, 0.0);
                 for block in &layer.blocks {
                     let weight = Matrix::row_major(&parameters[block.weight.clone()], block.input.len());
                     let sizes = [rows, block.input.len(), block.output.len()];
-                    let left = above_rows.from_column(block.output.start);
+                    let left = above_rows.skip_columns(block.output.start);
                     multiply(sizes, left, weight, &mut below[block.input.start..], layer.input, false);
                 }
                 std::mem::swap(above, below);
@@ -256,7 +256,7 @@ impl BlockLayer {
         let rows = output.len() / self.output;
         for block in &self.blocks {
             let weight = Matrix::row_major(&parameters[block.weight.clone()], block.input.len()).transposed();
-            let input = Matrix::row_major(input, self.input).from_column(block.input.start);
+            let input = Matrix::row_major(input, self.input).skip_columns(block.input.start);
             let sizes = [rows, block.output.len(), block.input.len()];
             multiply(sizes, input, weight, &mut output[block.output.start..], self.output, false);
         }
@@ -277,7 +277,7 @@ impl<'a> Matrix<'a> {
     }
 
     /// Returns the matrix without its first columns.
-    fn from_column(self, column: usize) -> Self {
+    fn skip_columns(self, column: usize) -> Self {
         Self { data: &self.data[column.min(self.data.len())..], ..self }
     }
 

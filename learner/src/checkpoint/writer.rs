@@ -1,8 +1,8 @@
 //! Writes the checkpoints of one run.
 
 use std::{
-    fs,
-    path::PathBuf,
+    fs, io,
+    path::{Path, PathBuf},
     time::{Duration, Instant},
 };
 
@@ -29,6 +29,9 @@ pub struct CheckpointWriter {
     named: Option<Instant>,
 }
 
+/// Writes a file atomically.
+type WriteFile = fn(&Path, &[u8]) -> io::Result<()>;
+
 #[derive(Clone, Debug)]
 enum Place {
     Folder(PathBuf),
@@ -51,13 +54,10 @@ impl CheckpointWriter {
     /// of the machine may take the run back by a second.
     pub fn save(&mut self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
         let bytes = encoding::encode(state)?;
-        let is_due = self.named.is_none_or(|named| named.elapsed() >= NAME_EVERY);
-        match &self.place {
-            Place::Folder(folder) if !is_due => atomic_file::write_quickly(&folder.join(LATEST), &bytes)
-                .map_err(|source| CheckpointError::Write { path: self.place_of(LATEST), source })?,
-            _ => self.write(LATEST, &bytes)?,
-        }
-        if is_due {
+        if self.named.is_some_and(|named| named.elapsed() < NAME_EVERY) {
+            self.write(LATEST, &bytes, atomic_file::write_quickly)?;
+        } else {
+            self.write(LATEST, &bytes, atomic_file::write)?;
             self.named = Some(Instant::now());
         }
         Ok(bytes)
@@ -77,7 +77,7 @@ impl CheckpointWriter {
 
     /// Writes an encoded state as the checkpoint of this number of updates. Returns its place.
     pub fn save_kept(&self, updates: u64, bytes: &[u8]) -> Result<String, CheckpointError> {
-        self.write(&numbered(updates), bytes)?;
+        self.write(&numbered(updates), bytes, atomic_file::write)?;
         Ok(self.place_of(&numbered(updates)))
     }
 
@@ -86,9 +86,9 @@ impl CheckpointWriter {
         (self.every_updates, self.keep) = (every_updates, keep);
     }
 
-    /// Writes an encoded state as `best.bundle`.
+    /// Writes an encoded state as `best.bundle`. Its name becomes durable with that of the newest one.
     pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        self.write("best.bundle", bytes)
+        self.write("best.bundle", bytes, atomic_file::write_quickly)
     }
 
     fn place_of(&self, name: &str) -> String {
@@ -98,9 +98,9 @@ impl CheckpointWriter {
         }
     }
 
-    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CheckpointError> {
+    fn write(&self, name: &str, bytes: &[u8], to_file: WriteFile) -> Result<(), CheckpointError> {
         match &self.place {
-            Place::Folder(folder) => atomic_file::write(&folder.join(name), bytes)
+            Place::Folder(folder) => to_file(&folder.join(name), bytes)
                 .map_err(|source| CheckpointError::Write { path: self.place_of(name), source }),
             Place::Store(store) => Ok(store.put(&format!("{IN_STORE}/{name}"), bytes)?),
         }

@@ -5,14 +5,15 @@ use treadmill_ppo::AcceptedFragment;
 use super::tensorboard::Histogram;
 
 /// Number of updates per set of histograms: they take a hundred times the space of a scalar.
-pub const EVERY_UPDATES: u64 = 50;
+pub const EVERY_UPDATES: u64 = 10;
 
 /// Most entries of an action with separate histograms; only `actions/all` has the others.
 const NAMED_MAX: usize = 64;
 
-/// Whether an update has histograms; the first update of a run is number 1.
-pub fn is_due(updates: u64) -> bool {
-    updates % EVERY_UPDATES == 1
+/// Returns the set of histograms that an update belongs to, of which only the first update that is logged has them. The
+/// first update of a run is number 1.
+pub fn set_of(updates: u64) -> u64 {
+    updates.saturating_add(EVERY_UPDATES - 1) / EVERY_UPDATES
 }
 
 /// Computes the histograms of a batch: of all action entries together, of each by its name, and of the policy lag of

@@ -161,11 +161,11 @@ impl Trainer {
 
     /// Advances the state and saves it. Returns an evaluation that has ended meanwhile.
     fn save(&mut self, update: &Update, batch: &CollectedBatch) -> Result<Option<EvaluationResult>, TrainingError> {
-        let Self { state, serving, reporting, config, .. } = self;
+        let Self { state, serving, reporting, .. } = self;
         state.advance(&batch.fragments, update.stats());
         reporting.advance(&mut state.counters, serving.intake.fleet.effort());
         let evaluation = serving.take_evaluation(state)?;
-        serving.save(state, config.run.deterministic)?;
+        serving.save(state)?;
         self.heartbeat.beat();
         Ok(evaluation)
     }

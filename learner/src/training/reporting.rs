@@ -69,6 +69,8 @@ pub(super) struct Reporting {
     wall_before_s: f64,
     /// When an update was last logged.
     logged: Option<Instant>,
+    /// Last set of histograms that was logged.
+    histogram_set: u64,
     /// Mean lag of the last batch.
     pub(super) lag_mean: f64,
 }
@@ -104,6 +106,7 @@ impl Reporting {
             begun: Instant::now(),
             wall_before_s: state.counters.wall_s,
             logged: None,
+            histogram_set: histograms::set_of(state.counters.updates),
             lag_mean: 0.0,
         })
     }
@@ -140,11 +143,10 @@ impl Reporting {
     fn is_due(&self, state: &TrainingState, config: &Config, has_evaluation: bool) -> bool {
         let every = Duration::from_millis(config.learner.metrics_every_ms.into());
         let Counters { env_steps, updates, .. } = state.counters;
-        let is_shown = histograms::is_due(updates) || updates.is_multiple_of(config.learner.table_every_updates.into());
         self.logged.is_none_or(|logged| logged.elapsed() >= every)
             || config.run.deterministic
             || has_evaluation
-            || is_shown
+            || updates.is_multiple_of(config.learner.table_every_updates.into())
             || env_steps >= config.run.steps
     }
 
@@ -204,7 +206,9 @@ impl Reporting {
         };
         let scalars = record.scalars();
         let updates = state.counters.updates;
-        let histograms = histograms::is_due(updates).then(|| histograms::of(fragments, &self.action_names));
+        let set = histograms::set_of(updates);
+        let histograms = (set != self.histogram_set).then(|| histograms::of(fragments, &self.action_names));
+        self.histogram_set = set;
         let (history, retry) = (self.history.clone(), self.retry.clone());
         self.background.submit(move |report| {
             if let Some(histograms) = histograms {

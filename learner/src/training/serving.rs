@@ -28,10 +28,6 @@ use crate::{
     waiting::PendingWrites,
 };
 
-/// Shortest time between two policies that are saved as the best in training. Early in a run nearly each update is better
-/// than the one before.
-const BEST_EVERY: Duration = Duration::from_secs(2);
-
 /// Serving part of a trainer: actors, evaluators and operators.
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
@@ -42,8 +38,6 @@ pub(super) struct Serving {
     pub(super) storage: Storage,
     /// Time that the learner waited for the current batch. Time in a pause does not count.
     pub(super) waited: Duration,
-    /// When a policy was last saved as the best in training.
-    best_saved: Option<Instant>,
 }
 
 impl Serving {
@@ -88,7 +82,7 @@ impl Serving {
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
         let evaluation = scheduler.transpose()?;
         let policies = PolicyServer::open(bus, policy)?;
-        Ok((Self { intake, policies, evaluation, control, storage, waited: Duration::ZERO, best_saved: None }, stats))
+        Ok((Self { intake, policies, evaluation, control, storage, waited: Duration::ZERO }, stats))
     }
 
     /// Adopts a changed configuration.
@@ -147,19 +141,17 @@ impl Serving {
     }
 
     /// Writes the checkpoint. Actors wait for it, so that no version is announced that a crash could undo.
-    pub(super) fn save(&mut self, state: &mut TrainingState, is_deterministic: bool) -> Result<(), TrainingError> {
+    pub(super) fn save(&mut self, state: &mut TrainingState) -> Result<(), TrainingError> {
         let validator = &mut self.intake.validator;
         validator.count_unread();
         state.fragment_counts = validator.counts;
         state.ledger = validator.ledger.clone();
         // Once this state is written, everything accepted so far is durable.
         state.ledger.mark_durable();
-        let is_due = is_deterministic || self.best_saved.is_none_or(|saved| saved.elapsed() >= BEST_EVERY);
-        let is_best = is_due && state.adopt_best_in_training();
+        let is_best = state.adopt_best_in_training();
         self.storage.save(state)?;
         if is_best {
             self.storage.save_best(&self.storage.saved)?;
-            self.best_saved = Some(Instant::now());
         }
         self.intake.validator.ledger.mark_durable();
         Ok(())
