@@ -42,14 +42,14 @@ pub fn print_start(
     }
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
     match actors {
-        Some(1) => say("  actors    1 process beside this one"),
-        Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
+        Some(actors) => {
+            let processes = if actors == 1 { "1 process".to_string() } else { format!("{actors} processes") };
+            let hint = if config.is_external() { String::new() } else { idle_lanes(config, actors) };
+            say(&format!("  actors    {processes} beside this one{hint}"));
+        }
         None => {
             say(&format!("  actors    none yet; start some by: {}", actor_command(setup, &endpoints[0], credentials)))
         }
-    }
-    if let Some(hint) = actors.filter(|_| !config.is_external()).and_then(|actors| idle_lanes(config, actors)) {
-        say(&format!("            {hint}"));
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(tls_flag).unwrap_or_default();
@@ -124,15 +124,13 @@ pub fn print_finished(state: &TrainingState, resumed_by: &str) {
     ));
 }
 
-/// Returns a hint if the processor could simulate more environments of each actor in the same time.
-fn idle_lanes(config: &Config, actors: u32) -> Option<String> {
+/// Returns a hint if the processor could simulate more environments of each actor in the same time; empty if not.
+fn idle_lanes(config: &Config, actors: u32) -> String {
     let (lanes, envs) = (worlds_per_pass() as u32, config.rollout.envs.div_ceil(actors.max(1)));
-    let filled = envs.next_multiple_of(lanes);
-    (envs < filled).then(|| {
-        format!(
-            "{envs} environments each: the processor simulates {lanes} at once, so {filled} take hardly longer (--envs)"
-        )
-    })
+    match envs.next_multiple_of(lanes) {
+        filled if filled > envs => format!(", {envs} environments each; {filled} take hardly longer (--envs)"),
+        _ => String::new(),
+    }
 }
 
 /// Prints the result of the run and the commands to use next; `resumed_by` resumes the run, whose state is in the store

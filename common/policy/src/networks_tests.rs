@@ -103,6 +103,8 @@ fn half_of_the_weights_are_learnt() {
     let ratio = networks.parameter_count() as f64 / dense.parameter_count() as f64;
     assert!((0.5..0.51).contains(&ratio), "{ratio}");
     assert_eq!(networks.log_std_range().len(), 4);
+    let ends = [networks.actor().range().end, networks.critic().range().start];
+    assert_eq!(ends, [networks.log_std_range().start, networks.log_std_range().end]);
 }
 
 #[test]
