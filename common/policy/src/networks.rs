@@ -125,25 +125,9 @@ impl Networks {
     pub fn log_std_range(&self) -> Range<usize> {
         match &self.mirror {
             None => self.shape.log_std(),
-            Some(PolicyMirror { observation, action }) => {
-                // Counted, because each gradient step asks for it.
-                let count = |reflection: &[(usize, f32)]| {
-                    let is_even = |(entry, (image, sign)): (usize, &(usize, f32))| {
-                        entry < *image || (entry == *image && *sign > 0.0)
-                    };
-                    let even = reflection.iter().enumerate().filter(|pair| is_even(*pair)).count();
-                    [even, reflection.len() - even]
-                };
-                let outputs = self.shape.hidden.iter().map(|width| [width / 2; 2]).chain([count(action)]);
-                let mut input = count(&observation[..self.shape.seen_by_actor()]);
-                let mut start = 0;
-                for output in outputs {
-                    start += input[0] * output[0] + input[1] * output[1] + output[0];
-                    input = output;
-                }
-                let own = |(entry, (image, _)): &(usize, &(usize, f32))| entry == image;
-                let own = action.iter().enumerate().filter(own).count();
-                start..start + (action.len() + own) / 2
+            Some(mirror) => {
+                let start = self.actor().range().end;
+                start..start + orbits(&mirror.action).len()
             }
         }
     }

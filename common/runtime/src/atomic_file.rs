@@ -32,12 +32,12 @@ pub fn write_quickly(path: &Path, bytes: &[u8]) -> io::Result<()> {
     match destination(path) {
         Destination::Stream(mut stream) => stream.write_all(bytes),
         Destination::File(path) => {
-            with_temporary(&path, |temporary, mut file| {
+            let publish = |temporary: &Path, mut file: File| {
                 file.write_all(bytes)?;
                 file.sync_data()?;
                 fs::rename(temporary, &path)
-            })?;
-            Ok(())
+            };
+            with_temporary(&path, publish).map(drop)
         }
     }
 }
@@ -177,10 +177,14 @@ mod tests {
     fn a_write_replaces_the_file_and_leaves_no_other() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state");
-        write(&path, b"one").unwrap();
-        write(&path, b"two").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"two");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        for (write, [first, second]) in
+            [(write as fn(&Path, &[u8]) -> _, ["one", "two"]), (write_quickly, ["three", "four"])]
+        {
+            write(&path, first.as_bytes()).unwrap();
+            write(&path, second.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), second);
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        }
     }
 
     #[test]
