@@ -7,6 +7,7 @@ use crate::{
     ActorState, Malformed, PolicyVersion, check_range, check_size,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
+    mirror,
     pieces::Cursor,
     planes,
     receipt::check_fragment_steps,
@@ -128,12 +129,7 @@ impl PolicyBundle {
             ("observation_mirror", &self.observation_mirror, size),
             ("action_mirror", &self.action_mirror, self.action_size as usize),
         ] {
-            if !mirror.is_empty() && mirror.len() != size {
-                return Err(Malformed::length(field, mirror.len(), format!("0 or {size}")));
-            }
-            if let Some(wrong) = mirror.iter().find(|index| !(1..=size).contains(&(index.unsigned_abs() as usize))) {
-                return Err(Malformed::field(field, wrong, format!("1 to {size}, or the same below 0")));
-            }
+            mirror::check(field, mirror, size)?;
         }
         if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));

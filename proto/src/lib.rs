@@ -53,6 +53,7 @@ pub mod stats;
 pub mod task;
 pub mod version;
 
+mod mirror;
 mod pieces;
 mod planes;
 mod scan;

@@ -6,7 +6,7 @@ use crate::{
     Malformed, check_finite, check_range, check_size,
     ident::{check_ident, check_task_name},
     limits::{TASK_BYTES_MAX, WIDTH_MAX},
-    wire,
+    mirror, wire,
 };
 
 pub use wire::{Task, TaskReceipt};
@@ -36,7 +36,32 @@ impl Task {
         if !(self.control_step_s.is_finite() && self.control_step_s >= 0.0) {
             return Err(Malformed::field("task.control_step_s", self.control_step_s, "0 or more"));
         }
-        Ok(())
+        self.check_mirror()
+    }
+
+    fn check_mirror(&self) -> Result<(), Malformed> {
+        let (observation, action) = (&self.observation_mirror, &self.action_mirror);
+        mirror::check("task.observation_mirror", observation, self.observation_size as usize)?;
+        mirror::check("task.action_mirror", action, self.action_size as usize)?;
+        if observation.is_empty() != action.is_empty() {
+            let empty = if action.is_empty() { "task.action_mirror" } else { "task.observation_mirror" };
+            return Err(Malformed::field(empty, "empty", "as long as the other mirror image"));
+        }
+        // Policies output shares of the range, and a mirrored share must be the mirrored action.
+        let range = |entry: usize| (self.action_low[entry], self.action_high[entry]);
+        let differs = |(entry, number): &(usize, &i32)| {
+            let (low, high) = range(number.unsigned_abs() as usize - 1);
+            range(*entry) != if **number > 0 { (low, high) } else { (-high, -low) }
+        };
+        match action.iter().enumerate().find(differs) {
+            None => Ok(()),
+            Some((entry, number)) => {
+                let ((low, high), (to_low, to_high)) = (range(entry), range(number.unsigned_abs() as usize - 1));
+                let value = format!("{number} at entry {}, whose range is {low} to {high}", entry + 1);
+                let expected = format!("an entry with the mirrored range, not one of {to_low} to {to_high}");
+                Err(Malformed::field("task.action_mirror", value, expected))
+            }
+        }
     }
 
     /// Returns why an actor of `other` cannot join a run of this task; `None` if it can.
@@ -49,12 +74,17 @@ impl Task {
         {
             return Some(format!("this run trains {self}; you registered {other}"));
         }
-        let what = match (self.action_low == other.action_low, self.action_high == other.action_high) {
-            (false, _) => format!("task.action_low {:?}, you registered {:?}", self.action_low, other.action_low),
-            (_, false) => format!("task.action_high {:?}, you registered {:?}", self.action_high, other.action_high),
-            _ => format!("task.control_step_s {}, you registered {}", self.control_step_s, other.control_step_s),
+        let fields = |task: &Self| {
+            [
+                ("action_low", format!("{:?}", task.action_low)),
+                ("action_high", format!("{:?}", task.action_high)),
+                ("control_step_s", task.control_step_s.to_string()),
+                ("observation_mirror", format!("{:?}", task.observation_mirror)),
+                ("action_mirror", format!("{:?}", task.action_mirror)),
+            ]
         };
-        Some(format!("this run trains {self} with {what}"))
+        let ((field, ours), (_, theirs)) = fields(self).into_iter().zip(fields(other)).find(|(a, b)| a != b)?;
+        Some(format!("this run trains {self} with task.{field} {ours}, you registered {theirs}"))
     }
 }
 
@@ -120,6 +150,8 @@ mod tests {
             action_low: vec![-2.0],
             action_high: vec![2.0],
             control_step_s: 0.05,
+            observation_mirror: vec![1, -2, -3],
+            action_mirror: vec![-1],
         }
     }
 
@@ -140,7 +172,7 @@ mod tests {
     #[test]
     fn the_error_names_the_bad_field() {
         type Corrupt = fn(&mut Task);
-        let cases: [(&str, Corrupt); 8] = [
+        let cases: [(&str, Corrupt); 13] = [
             ("task.name", |task| task.name = "treadmill/humanoid-v5".into()),
             ("task.observation_size", |task| task.observation_size = 0),
             ("task.observation_size", |task| task.observation_size = 4097),
@@ -149,6 +181,11 @@ mod tests {
             ("task.action_high", |task| task.action_high = vec![f64::INFINITY]),
             ("task.action_low", |task| task.action_low = vec![2.0]),
             ("task.control_step_s", |task| task.control_step_s = f64::NAN),
+            ("task.observation_mirror", |task| task.observation_mirror = vec![1, 2]),
+            ("task.observation_mirror", |task| task.observation_mirror = vec![1, i32::MIN, 3]),
+            ("task.observation_mirror", |task| task.observation_mirror = vec![2, 3, 1]),
+            ("task.action_mirror", |task| task.action_mirror = vec![]),
+            ("task.action_mirror", |task| task.action_low = vec![-1.0]),
         ];
         for (field, corrupt) in cases {
             let mut bad = task();
@@ -177,6 +214,10 @@ mod tests {
         assert!(task().differs_from(&weak).unwrap().contains("task.action_high [2.0], you registered [1.0]"));
         let slow = Task { control_step_s: 0.1, ..task() };
         assert!(task().differs_from(&slow).unwrap().contains("task.control_step_s 0.05"));
+        let other = Task { observation_mirror: vec![1, 3, 2], ..task() };
+        assert!(
+            task().differs_from(&other).unwrap().contains("task.observation_mirror [1, -2, -3], you registered [1, 3")
+        );
     }
 
     proptest! {

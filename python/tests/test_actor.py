@@ -167,6 +167,17 @@ class TaskTest(unittest.TestCase):
         with self.assertRaisesRegex(TaskError, "not a task name"):
             describe(Count(), "a b")
 
+    def test_a_mirror_of_the_environment_is_registered(self):
+        env = Count()
+        self.assertEqual(describe(env, "test/Count-v0").observation_mirror, [])
+        env.mirror = (np.array([1]), [1])
+        message = schema.TaskRegistration().task
+        describe(env, "test/Count-v0").fill(message)
+        self.assertEqual((list(message.observation_mirror), list(message.action_mirror)), ([1], [1]))
+        env.mirror = ([0.5], [1])
+        with self.assertRaisesRegex(TaskError, "`mirror` of `test/Count-v0`.*whole numbers"):
+            describe(env, "test/Count-v0")
+
     def test_unbounded_entries_use_plus_minus_one(self):
         env = Count()
         env.action_space = gymnasium.spaces.Box(-np.inf, np.inf, (2,))

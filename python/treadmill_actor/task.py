@@ -1,6 +1,7 @@
 """Describes a Gymnasium environment to the learner: name, sizes, action ranges."""
 
 import numbers
+import operator
 import re
 from dataclasses import dataclass
 
@@ -31,6 +32,9 @@ class Task:
     low: np.ndarray
     high: np.ndarray
     control_step_s: float
+    #: Numbers from 1 of the entries that a mirrored observation and a mirrored action hold; empty without a mirror image.
+    observation_mirror: list
+    action_mirror: list
     #: Action space.
     box: gymnasium.spaces.Box
 
@@ -52,6 +56,20 @@ class Task:
         message.action_low.extend(self.low.tolist())
         message.action_high.extend(self.high.tolist())
         message.control_step_s = self.control_step_s
+        message.observation_mirror.extend(self.observation_mirror)
+        message.action_mirror.extend(self.action_mirror)
+
+
+def _mirror(env, name):
+    """Returns the environment's attribute `mirror`, a pair of lists of whole numbers; two empty lists without it."""
+    if not env.has_wrapper_attr("mirror"):
+        return [], []
+    given = env.get_wrapper_attr("mirror")
+    try:
+        observation, action = ([operator.index(number) for number in numbers_] for numbers_ in given)
+    except (TypeError, ValueError):
+        raise TaskError(f"the attribute `mirror` of `{name}` is {given!r}; it must be two lists of whole numbers") from None
+    return observation, action
 
 
 def describe(env, name):
@@ -71,6 +89,7 @@ def describe(env, name):
         np.where(high_given, high, np.where(low_given, low + 2.0, 1.0)),
     )
     dt = getattr(env.unwrapped, "dt", 0.0)
+    observation_mirror, action_mirror = _mirror(env, name)
     return Task(
         name=name,
         observation_size=int(np.prod(env.observation_space.shape)),
@@ -78,5 +97,7 @@ def describe(env, name):
         low=low,
         high=high,
         control_step_s=float(dt) if isinstance(dt, (int, float)) and 0 < dt < 1e3 else 0.0,
+        observation_mirror=observation_mirror,
+        action_mirror=action_mirror,
         box=env.action_space,
     )

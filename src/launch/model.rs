@@ -8,8 +8,8 @@ use std::{
 use clap::Args;
 use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, TaskRegistry, mjcf, read_model_file};
+use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
-use treadmill_ppo::settings::wants_mirror;
 use treadmill_runtime::{error_chain, words::nearest_path};
 
 use crate::launch::exit_code::Usage;
@@ -109,21 +109,12 @@ pub fn networks(config: &Config, environment: &Environment) -> Result<Networks, 
         hidden: config.policy.hidden.iter().map(|width| *width as usize).collect(),
         privileged: environment.privileged_size(),
     };
-    let equivariant = || {
+    let mirror = || {
         let of_body = treadmill_humanoid::Mirror::of(environment.physics().model())?;
         let observation = environment.task().mirrored(&of_body).ok_or("this task has no mirror image")?;
-        Networks::new(shape.clone(), Some(PolicyMirror { observation, action: of_body.action }))
+        Ok(PolicyMirror { observation, action: of_body.action })
     };
-    match wants_mirror(&config.ppo) {
-        Some(false) => Ok(shape.into()),
-        Some(true) => equivariant().map_err(|why| {
-            Usage(format!("`ppo.symmetry` is \"equivariant\", but {why}; allowed here: \"auto\" or \"off\""))
-        }),
-        None => Ok(equivariant().unwrap_or_else(|why| {
-            tracing::info!(why, "the networks are not equivariant");
-            shape.into()
-        })),
-    }
+    TrainingState::networks(config, shape, mirror).map_err(Usage)
 }
 
 /// Checks that `file` is the model of the resumed run.

@@ -98,9 +98,8 @@ impl RunSetup {
     /// # Errors
     /// If the task is not allowed, the policy does not fit, or the configuration cannot be written.
     pub fn set_task(&mut self, task: Task, init_from: Option<&InitFrom>) -> anyhow::Result<TrainingState> {
-        let shape = TrainingState::shape_for(&self.config, &task);
+        let networks = TrainingState::networks_for(&self.config, &task).map_err(Usage)?;
         self.config.task = task.into();
-        let networks = shape.into();
         settings::choose(&mut self.config.ppo, &networks);
         self.config.check()?;
         let mut fresh = TrainingState::fresh(&self.run, &self.config, "", networks, seeds::unique());

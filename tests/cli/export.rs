@@ -175,11 +175,27 @@ fn other_programs_compute_the_same_actions() {
     let line = |step: &Value| step["observation"].to_string() + "\n";
     fs::write(&observations, json_lines(&trace).iter().map(line).collect::<String>()).unwrap();
     let output = Command::new(example("play_policy")).arg(&file).stdin(fs::File::open(&observations).unwrap()).output();
-    compare(&wanted, &output.unwrap());
+    compare(&wanted, &output.unwrap(), 1e-5);
 
     let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/run_onnx.py");
-    compare(&wanted, &python.arg(script).arg(&model).arg(&trace).output().unwrap());
+    let played = python.arg(&script).arg(&model).arg(&trace).output().unwrap();
+    compare(&wanted, &played, 1e-5);
+
+    // Mirrored observations give mirrored actions.
+    let mirror = latest(Path::new(run)).ppo.networks().mirror().unwrap().clone();
+    let mirrored = |row: Vec<f64>, reflection: &[(usize, f32)]| -> Vec<f64> {
+        reflection.iter().map(|(entry, sign)| row[*entry] * f64::from(*sign)).collect()
+    };
+    let line = |step: &Value| {
+        let observation = mirrored(numbers(&step["observation"]), &mirror.observation);
+        serde_json::json!({ "observation": observation }).to_string() + "\n"
+    };
+    let images = folder.path().join("mirrored.jsonl");
+    fs::write(&images, json_lines(&trace).iter().map(line).collect::<String>()).unwrap();
+    let wanted: Vec<_> = actions(&played).into_iter().map(|row| mirrored(row, &mirror.action)).collect();
+    let mut python = python_with("numpy, onnx, onnxruntime").unwrap();
+    compare(&wanted, &python.arg(script).arg(&model).arg(&images).output().unwrap(), 1e-6);
 }
 
 /// Returns the actions of a trace in the units of the motors, with the ranges of the exported policy.
@@ -197,14 +213,19 @@ fn wanted(policy: &Path, trace: &Path) -> Vec<Vec<f64>> {
     json_lines(trace).iter().map(motors).collect()
 }
 
-/// Compares lines of actions that another program wrote.
-fn compare(wanted: &[Vec<f64>], output: &Output) {
+/// Returns the actions that another program wrote, one on a line.
+fn actions(output: &Output) -> Vec<Vec<f64>> {
     assert!(output.status.success(), "{}", stderr(output));
-    let found: Vec<_> = stdout(output).lines().map(|line| numbers(&serde_json::from_str(line).unwrap())).collect();
+    stdout(output).lines().map(|line| numbers(&serde_json::from_str(line).unwrap())).collect()
+}
+
+/// Compares actions that another program wrote.
+fn compare(wanted: &[Vec<f64>], output: &Output, tolerance: f64) {
+    let found = actions(output);
     assert_eq!(found.len(), wanted.len());
     for (row, (found, wanted)) in found.iter().zip(wanted).enumerate() {
         let off = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max);
-        assert!(off < 1e-5 && found.len() == wanted.len(), "row {row} is off by {off}");
+        assert!(off < tolerance && found.len() == wanted.len(), "row {row} is off by {off}");
     }
 }
 

@@ -18,6 +18,8 @@ fn task() -> Task {
         action_low: vec![-3.0, 0.0],
         action_high: vec![1.0, 2.0],
         control_step_s: 0.5,
+        observation_mirror: vec![],
+        action_mirror: vec![],
     }
 }
 
@@ -153,6 +155,29 @@ async fn the_first_registration_defines_the_task_and_others_must_match_it() {
     assert!(!register(&bus, "other-1", &Task { name: "test/Other-v0".into(), ..task() }).await.accepted);
     assert_eq!(send(&bus, &fragment(&again, 3)).await.outcome, Outcome::Accepted);
     assert!(training.wait().0.success());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_registered_mirror_image_makes_the_networks_equivariant() {
+    let (folder, run) = folders();
+    let training = learner(folder.path(), &run, &["--task", "external", "--set", "ppo.symmetry=equivariant"]);
+    let bus = join(&run);
+    let refused = register(&bus, "count-1", &task()).await;
+    assert!(!refused.accepted && refused.reason.contains("`ppo.symmetry`"), "{}", refused.reason);
+    assert!(refused.reason.contains("no mirror image"), "{}", refused.reason);
+    let (observation_mirror, action_mirror) = (vec![1, -2, 3], vec![2, 1]);
+    let (action_low, action_high) = (vec![-1.0; 2], vec![1.0; 2]);
+    let mirrored = Task { observation_mirror, action_mirror, action_low, action_high, ..task() };
+    assert!(register(&bus, "count-1", &mirrored).await.accepted);
+    training.wait_for("`test/Count-v0`");
+    let bundle = policy(&bus).await;
+    assert_eq!((bundle.observation_mirror, bundle.action_mirror), (vec![1, -2, 3], vec![2, 1]));
+    let refused = register(&bus, "count-2", &Task { observation_mirror: vec![-1, 2, 3], ..mirrored }).await;
+    assert!(
+        refused.reason.contains("task.observation_mirror [1, -2, 3], you registered [-1, 2, 3]"),
+        "{}",
+        refused.reason
+    );
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -82,6 +82,20 @@ fn five_updates_and_five_resumed_updates_equal_ten() {
 }
 
 #[test]
+fn batches_grow_with_the_steps_of_a_run_and_stay_so_after_a_resume() {
+    let (folder, whole) = folders();
+    let keys = ["ppo.batch_growth_steps=1536"];
+    let wanted = begin(folder.path(), &whole, 13, &keys);
+    let batches = |run| metrics(run).into_iter().filter(|(tag, ..)| tag == "train/batch").map(|(.., value)| value);
+    let sizes: Vec<f64> = batches(&whole).collect();
+    // Twice as large from 1,536 steps on, four times from 3,072 on.
+    assert_eq!(sizes, [512.0, 512.0, 512.0, 1024.0, 1024.0, 2048.0, 2048.0]);
+    let halves = folder.path().join("halves");
+    assert_eq!(begin(folder.path(), &halves, 5, &keys).counters.updates, 4);
+    assert_same(&resume(folder.path(), &halves, 13, &[]).0, &wanted);
+}
+
+#[test]
 fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
     let (folder, run) = folders();
     let endless = (1_000_000 * BATCH).to_string();

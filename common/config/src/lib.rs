@@ -99,6 +99,11 @@ impl Config {
         self.check_together()
     }
 
+    /// Returns this configuration with a batch that has grown.
+    pub fn grown(&self, env_steps: u64) -> Self {
+        Self { ppo: self.ppo.grown(env_steps), ..self.clone() }
+    }
+
     fn check_together(&self) -> Result<(), ConfigError> {
         if self.ppo.batch > 0 && self.ppo.minibatch > self.ppo.batch {
             return refuse(

@@ -12,7 +12,7 @@ macro_rules! velocity {
              [randomisation]\nmass_scale = [0.9, 1.1]\nfloor_friction_scale = [0.6, 1.3]\nmotor_scale = [0.9, 1.1]\n\
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
              action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
-             [policy]\ninit_log_std = -1.8\n"
+             [policy]\ninit_log_std = -1.8\n[ppo]\nbatch_growth_steps = 1000000\n"
         )
     };
 }

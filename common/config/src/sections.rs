@@ -43,6 +43,11 @@ section! {
             => |v| v.iter().all(|v| v.is_finite());
         /// Duration of one control step in seconds; 0 means unknown.
         control_step_s: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Mirror image of an observation, which exchanges left and right: for each entry the number from 1 of the entry that
+        /// it holds, negative if with its sign changed. Empty means none.
+        observation_mirror: Vec<i32> = vec![], "as many numbers as task.observation_size says" => |_| true;
+        /// Mirror image of an action.
+        action_mirror: Vec<i32> = vec![], "as many numbers as task.action_size says" => |_| true;
     }
 }
 
@@ -89,6 +94,9 @@ section! {
         batch_max: u32 = 131_072, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step; 0 means 512, or a whole batch that is smaller.
         minibatch: u32 = 0, "0 to ppo.batch" => |_| true;
+        /// Environment steps of the run from which on batch and minibatch are twice as large; they double again when the steps
+        /// have doubled, up to 8 times their size. 0 keeps them.
+        batch_growth_steps: u64 = 0, "0 or more" => |_| true;
         /// Passes over the batch in one update.
         epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
         /// Fewest passes in learner.mode "async", used when experience waits although batches have their largest size.
@@ -186,8 +194,7 @@ fn is_tag(text: &str) -> bool {
 impl RolloutConfig {
     /// Shortest automatic fragment in control steps.
     pub const STEPS_MIN: u32 = 8;
-    /// Longest automatic fragment of an actor at the usual speed. Fewer environments than fill a batch with it deliver
-    /// several
+    /// Longest automatic fragment of an actor at the usual speed. Fewer environments than fill a batch with it deliver several
     /// fragments for each batch.
     pub const STEPS_MAX: u32 = 128;
 }
@@ -195,10 +202,27 @@ impl RolloutConfig {
 impl PpoConfig {
     /// Transitions of one gradient step if `minibatch` is 0.
     const MINIBATCH_ROWS: u32 = 512;
+    /// Most doublings of a batch during a run.
+    const DOUBLINGS_MAX: u32 = 3;
 
     /// Returns the transitions of one gradient step, for batches that are as large.
     pub fn minibatch_rows(&self) -> usize {
         (if self.minibatch == 0 { Self::MINIBATCH_ROWS } else { self.minibatch }) as usize
+    }
+
+    /// Returns the factor on batch and minibatch after so many environment steps. Late in a run, noisy gradients keep a policy
+    /// from its best, and a larger batch has the effect of a lower learning rate (Smith et al. 2018, arXiv:1711.00489).
+    pub fn growth(&self, env_steps: u64) -> u32 {
+        let times = env_steps.checked_div(self.batch_growth_steps).unwrap_or(0);
+        let doublings = u64::BITS - times.leading_zeros();
+        1 << doublings.min(Self::DOUBLINGS_MAX)
+    }
+
+    /// Returns these settings with a batch and minibatch that have grown.
+    pub fn grown(&self, env_steps: u64) -> Self {
+        let growth = self.growth(env_steps);
+        let minibatch = (self.minibatch_rows() as u32).saturating_mul(growth);
+        Self { batch: self.batch.saturating_mul(growth), minibatch, ..self.clone() }
     }
 
     /// Replaces a batch of 0 by that of equivariant or dense networks. Small batches harm dense ones.
@@ -206,5 +230,20 @@ impl PpoConfig {
         if self.batch == 0 {
             self.batch = if is_equivariant { 2048 } else { 4096 };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PpoConfig;
+
+    #[test]
+    fn batches_double_when_the_steps_have_doubled() {
+        let ppo = PpoConfig { batch: 2048, batch_growth_steps: 1000, ..PpoConfig::default() };
+        let growth = [0, 999, 1000, 1999, 2000, 3999, 4000, u64::MAX].map(|steps| ppo.growth(steps));
+        assert_eq!(growth, [1, 1, 2, 2, 4, 4, 8, 8]);
+        let grown = ppo.grown(2000);
+        assert_eq!((grown.batch, grown.minibatch), (8192, 2048));
+        assert_eq!(PpoConfig { batch_growth_steps: 0, ..ppo }.growth(u64::MAX), 1);
     }
 }

@@ -2,7 +2,7 @@
 
 use treadmill_proto::Task;
 
-use super::{ChosenTask, Config, ConfigError, EnvTask, Symmetry, TaskConfig, refuse, show};
+use super::{ChosenTask, Config, ConfigError, EnvTask, TaskConfig, refuse, show};
 
 impl TaskConfig {
     pub(super) fn is_unset(&self) -> bool {
@@ -18,6 +18,8 @@ impl TaskConfig {
             action_low: self.action_low.clone(),
             action_high: self.action_high.clone(),
             control_step_s: self.control_step_s,
+            observation_mirror: self.observation_mirror.clone(),
+            action_mirror: self.action_mirror.clone(),
         })
     }
 }
@@ -31,6 +33,8 @@ impl From<Task> for TaskConfig {
             action_low: task.action_low,
             action_high: task.action_high,
             control_step_s: task.control_step_s,
+            observation_mirror: task.observation_mirror,
+            action_mirror: task.action_mirror,
         }
     }
 }
@@ -65,9 +69,6 @@ impl Config {
             let why = "false where env.task is \"external\": its actors do not draw from the run's seed";
             return refuse("run.deterministic", "true", why);
         }
-        if self.ppo.symmetry == Symmetry::Equivariant {
-            return refuse("ppo.symmetry", "\"equivariant\"", "\"auto\" or \"off\" where env.task is \"external\"");
-        }
         match task.known() {
             Some(known) => known
                 .check()
@@ -99,6 +100,8 @@ mod tests {
             action_low: vec![-2.0],
             action_high: vec![2.0],
             control_step_s: 0.05,
+            observation_mirror: vec![1, -2, -3],
+            action_mirror: vec![-1],
         };
         let fixed = Config { task: task.clone().into(), ..open };
         fixed.check().unwrap();
@@ -120,7 +123,6 @@ mod tests {
     fn settings_that_an_external_task_excludes_are_named() {
         let refused = |more: &[&str]| built(&[&["env.task=external"], more].concat()).unwrap_err();
         assert!(refused(&["run.deterministic=true"]).contains("`run.deterministic`"));
-        assert!(refused(&["ppo.symmetry=equivariant"]).contains("`ppo.symmetry`"));
         assert!(refused(&["task.action_size=3"]).contains("`task.observation_size`"));
         assert!(refused(&["task.observation_size=3", "task.action_size=1"]).contains("task.name"));
         assert!(refused(&["task.name=treadmill/humanoid-v5"]).contains("`task.name`"));

@@ -24,11 +24,11 @@ pub const CHUNK_ROWS: usize = 256;
 pub struct Mlp {
     range: Range<usize>,
     layers: Vec<BlockLayer>,
-    /// Reflected that the network is equivariant to. Its layers map even and odd parts, see [`crate::Networks`].
+    /// Reflection that the network is equivariant to. Its layers map even and odd parts, see [`crate::Networks`].
     reflection: Option<Reflected>,
 }
 
-/// BlockLayer whose weight consists of blocks: one in dense networks, an even and an odd one in equivariant networks.
+/// Layer whose weight consists of blocks: one in dense networks, an even and an odd one in equivariant networks.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockLayer {
     pub(crate) input: usize,

@@ -92,6 +92,16 @@ impl Value for u32 {
     }
 }
 
+impl Value for i32 {
+    const NOTATION: &'static str = u32::NOTATION;
+    const PAIR: &'static str = u32::PAIR;
+    const LIST: &'static str = u32::LIST;
+
+    fn convert(value: &Toml) -> Result<Toml, Misfit> {
+        whole::<Self>(value, Self::MIN.into(), Self::MAX.into())
+    }
+}
+
 impl Value for u64 {
     const NOTATION: &'static str = u32::NOTATION;
 

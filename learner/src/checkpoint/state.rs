@@ -3,8 +3,11 @@
 use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
-use treadmill_policy::{NetworkShape, Networks, mirror_indices, normaliser::Normaliser};
-use treadmill_ppo::{AcceptedFragment, PpoState, TrainedPolicy, UpdateStats, settings::check_symmetry};
+use treadmill_policy::{NetworkShape, Networks, PolicyMirror, mirror_indices, normaliser::Normaliser};
+use treadmill_ppo::{
+    AcceptedFragment, PpoState, TrainedPolicy, UpdateStats,
+    settings::{check_symmetry, wants_mirror},
+};
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
@@ -166,12 +169,46 @@ impl TrainingState {
         let parameters = Self::shape_for(config, task).parameter_count();
         // The other half is for the statistics of observations and the texts.
         let parameters_max = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
-        (parameters > parameters_max).then(|| {
-            format!(
+        if parameters > parameters_max {
+            return Some(format!(
                 "networks for {task} have {parameters} parameters with policy.hidden {:?}, and a policy bundle holds at \
                  most {parameters_max}; make policy.hidden narrower",
                 config.policy.hidden
-            )
+            ));
+        }
+        Self::networks_for(config, task).err()
+    }
+
+    /// Returns the networks of a new run, which `ppo.symmetry` may make equivariant to a mirror.
+    ///
+    /// # Errors
+    /// If they must be equivariant, and there is no mirror, or it does not fit.
+    pub fn networks(
+        config: &Config,
+        shape: NetworkShape,
+        mirror: impl FnOnce() -> Result<PolicyMirror, String>,
+    ) -> Result<Networks, String> {
+        let equivariant = || Networks::new(shape.clone(), Some(mirror()?));
+        match wants_mirror(&config.ppo) {
+            Some(false) => Ok(shape.into()),
+            Some(true) => equivariant().map_err(|why| {
+                format!("`ppo.symmetry` is \"equivariant\", but {why}; allowed here: \"auto\" or \"off\"")
+            }),
+            None => Ok(equivariant().unwrap_or_else(|why| {
+                tracing::info!(why, "the networks are not equivariant");
+                shape.into()
+            })),
+        }
+    }
+
+    /// Returns the networks of a new run of an external task.
+    ///
+    /// # Errors
+    /// If `ppo.symmetry` asks for a mirror that the task has not.
+    pub fn networks_for(config: &Config, task: &Task) -> Result<Networks, String> {
+        Self::networks(config, Self::shape_for(config, task), || {
+            PolicyMirror::of_indices(&task.observation_mirror, &task.action_mirror)
+                .ok_or_else(|| format!("{task} has no mirror image"))
         })
     }
 

@@ -62,9 +62,8 @@ impl Learning {
         Ok(Self { ppo, load: LoadAdaptation::new(&config.ppo, config.learner.mode), undone_in_a_row: 0 })
     }
 
-    /// Adopts a configuration in which `key` has changed.
-    pub(super) fn set_config(&mut self, state: &mut PpoState, key: &str, config: &Config) {
-        state.adopt_key(key, &config.ppo);
+    /// Adopts a changed configuration.
+    pub(super) fn set_config(&mut self, config: &Config) {
         self.ppo.set_config(&config.ppo);
         self.load = LoadAdaptation::new(&config.ppo, config.learner.mode);
     }

@@ -97,6 +97,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let learn = update.learn;
         let durations = PhaseDurations { collect, update: updating, learn, checkpoint, publish, serial };
         trainer.log(&Round { batch, update, evaluation, durations })?;
+        trainer.grow();
         trainer.publish_status(true);
     }
     Ok(false)
@@ -125,6 +126,8 @@ struct Trainer {
     heartbeat: Heartbeat,
     /// Whether an operator has paused the run.
     is_paused: bool,
+    /// Factor by which batches have grown.
+    growth: u32,
     /// Whether an operator has stopped the run.
     is_stopped: bool,
     learning: Learning,
@@ -177,6 +180,19 @@ impl Trainer {
             self.reporting.background.submit(move |_| write());
         }
         Ok(())
+    }
+
+    /// Lets batches grow with the steps of the run.
+    fn grow(&mut self) {
+        let steps = self.state.counters.env_steps;
+        let growth = self.config.ppo.growth(steps);
+        if growth != self.growth {
+            self.growth = growth;
+            let grown = self.config.grown(steps);
+            self.learning.set_config(&grown);
+            self.serving.set_rule(&self.state, &grown);
+            tracing::info!(batch = grown.ppo.batch, "batches grow");
+        }
     }
 
     /// Logs a round.

@@ -87,11 +87,16 @@ impl Serving {
 
     /// Adopts a changed configuration.
     pub(super) fn set_config(&mut self, state: &TrainingState, config: &Config) {
-        self.intake.fleet.set_rule(HorizonRule::new(config, state.shape().observation, state.shape().action));
+        self.set_rule(state, config);
         self.storage.set_config(config);
         if let Some(evaluation) = &mut self.evaluation {
             evaluation.set_every(config.eval.every_steps, state.counters.env_steps);
         }
+    }
+
+    /// Fits fragments to another size of batches.
+    pub(super) fn set_rule(&mut self, state: &TrainingState, config: &Config) {
+        self.intake.fleet.set_rule(HorizonRule::new(config, state.shape().observation, state.shape().action));
     }
 
     /// Whether evaluators can get policies.

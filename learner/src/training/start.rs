@@ -23,7 +23,8 @@ impl Trainer {
         state.lineage.set_epoch(options.epoch);
         let mut config = state.config().map_err(|why| TrainingError::State { why })?;
         config.run.steps = options.steps;
-        let learning = Learning::new(&state, &config, options)?;
+        let (growth, grown) = (config.ppo.growth(state.counters.env_steps), config.grown(state.counters.env_steps));
+        let learning = Learning::new(&state, &grown, options)?;
         let (heartbeat, pending, shutdown) = (options.heartbeat.clone(), PendingWrites::default(), shutdown.clone());
         let overtaken = leadership.as_ref().map(Leadership::overtaken).unwrap_or_default();
         let retry =
@@ -33,9 +34,9 @@ impl Trainer {
         let report = MetricsReport::open(bus, &options.folder, &state, &config, &options.report)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let history = History::read(&options.folder.metrics())?;
-        let (serving, stats) = Serving::open(bus, &state, &config, options, storage, pending)?;
+        let (serving, stats) = Serving::open(bus, &state, &grown, options, storage, pending)?;
         let reporting = Reporting::new(report, history, stats, &state, options, retry)?;
         let (is_paused, is_stopped) = (false, false);
-        Ok(Self { state, config, shutdown, heartbeat, is_paused, is_stopped, learning, serving, reporting })
+        Ok(Self { state, config, shutdown, heartbeat, is_paused, growth, is_stopped, learning, serving, reporting })
     }
 }
