@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Measures how long a robot trains until it obeys velocity commands: the rows of time_to_obey.csv.
 
-Usage: obeys.py PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--set KEY=VALUE ...]
+Usage: obeys.py PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--first 1]
+                [--set KEY=VALUE ...]
 
 A robot obeys at the first checkpoint that, played without exploration for 100 episodes of 20 s with drawn commands and with the
 pushes of the training, misses the commanded velocity by at most the first error (m/s) and the yaw rate by at most the second
@@ -23,7 +24,7 @@ import sys
 EPISODES = 100
 # Pushes as in training, everything else exact.
 PUSHES = ["--set", "randomisation.push_mps=[0.0,0.5]", "--set", "randomisation.push_interval_s=[5.0,10.0]"]
-CHECKPOINTS = ["--set", "learner.checkpoint_every_updates=250", "--set", "learner.keep_checkpoints=1000"]
+CHECKPOINTS = ["--set", "learner.checkpoint_every_updates=100", "--set", "learner.keep_checkpoints=1000"]
 
 
 def last_line(command):
@@ -76,11 +77,10 @@ def obeys(args, found):
 def measure(program, args, seed, folder):
     """Yields the measurements of each checkpoint until one obeys in both simulators."""
     began = began_unix_s(folder)
-    for checkpoint in sorted((folder / "checkpoints").glob("*.bundle")):
-        if not checkpoint.stem.isdecimal():
-            continue
-        update = str(int(checkpoint.stem))
-        row = {"preset": args.preset, "seed": seed, "update": int(update), "seconds": checkpoint.stat().st_mtime - began}
+    numbered = [file for file in sorted((folder / "checkpoints").glob("0*.bundle")) if int(file.stem) >= args.first]
+    for checkpoint in [*numbered, folder / "checkpoints/latest.bundle"]:
+        update = checkpoint.stem.lstrip("0")
+        row = {"preset": args.preset, "seed": seed, "checkpoint": update, "seconds": checkpoint.stat().st_mtime - began}
         row["here"] = here(program, folder, update)
         if obeys(args, row["here"]) or args.all:
             row["mujoco"] = in_mujoco(program, args, folder, update)
@@ -97,6 +97,7 @@ def main():
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--errors", type=float, nargs=2, default=[0.15, 0.2])
     parser.add_argument("--falls", type=int, default=5)
+    parser.add_argument("--first", type=int, default=1, help="update of the first checkpoint to measure")
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--all", action="store_true", help="measure every checkpoint, each in both simulators")
     args = parser.parse_args()

@@ -53,7 +53,8 @@ pub const ENVS_MAX: u32 = 65_536;
 pub const WIDTH_MAX: u32 = 4096;
 /// Most hidden layers.
 pub const HIDDEN_LAYERS_MAX: usize = 8;
-/// Largest registration of a task: two ranges of the widest action, two mirror images of at most five bytes an entry, and names.
+/// Largest registration of a task: two ranges of the widest action, two mirror images of at most five bytes an entry, and
+/// names.
 pub const TASK_BYTES_MAX: usize = SMALL_BYTES_MAX + 2 * (8 + 5) * WIDTH_MAX as usize;
 /// Longest name of a task.
 pub const TASK_NAME_CHARS_MAX: usize = 128;

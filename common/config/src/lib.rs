@@ -99,6 +99,11 @@ impl Config {
         self.check_together()
     }
 
+    /// Returns the factor by which batches have grown after so many environment steps.
+    pub fn growth(&self, env_steps: u64) -> u32 {
+        self.ppo.growth(env_steps)
+    }
+
     /// Returns this configuration with a batch that has grown.
     pub fn grown(&self, env_steps: u64) -> Self {
         Self { ppo: self.ppo.grown(env_steps), ..self.clone() }

@@ -43,8 +43,8 @@ section! {
             => |v| v.iter().all(|v| v.is_finite());
         /// Duration of one control step in seconds; 0 means unknown.
         control_step_s: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
-        /// Mirror image of an observation, which exchanges left and right: for each entry the number from 1 of the entry that
-        /// it holds, negative if with its sign changed. Empty means none.
+        /// Mirror image of an observation, which exchanges left and right: for each entry the number from 1 of the entry
+        /// that it holds, negative if with its sign changed. Empty means none.
         observation_mirror: Vec<i32> = vec![], "as many numbers as task.observation_size says" => |_| true;
         /// Mirror image of an action.
         action_mirror: Vec<i32> = vec![], "as many numbers as task.action_size says" => |_| true;
@@ -94,8 +94,8 @@ section! {
         batch_max: u32 = 131_072, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step; 0 means 512, or a whole batch that is smaller.
         minibatch: u32 = 0, "0 to ppo.batch" => |_| true;
-        /// Environment steps of the run from which on batch and minibatch are twice as large; they double again when the steps
-        /// have doubled, up to 8 times their size. 0 keeps them.
+        /// Environment steps of the run from which on batch and minibatch are twice as large; they double again when the
+        /// steps have doubled, up to 8 times their size. 0 keeps them.
         batch_growth_steps: u64 = 0, "0 or more" => |_| true;
         /// Passes over the batch in one update.
         epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
@@ -194,8 +194,8 @@ fn is_tag(text: &str) -> bool {
 impl RolloutConfig {
     /// Shortest automatic fragment in control steps.
     pub const STEPS_MIN: u32 = 8;
-    /// Longest automatic fragment of an actor at the usual speed. Fewer environments than fill a batch with it deliver several
-    /// fragments for each batch.
+    /// Longest automatic fragment of an actor at the usual speed. Fewer environments than fill a batch with it deliver
+    /// several fragments for each batch.
     pub const STEPS_MAX: u32 = 128;
 }
 
@@ -210,8 +210,9 @@ impl PpoConfig {
         (if self.minibatch == 0 { Self::MINIBATCH_ROWS } else { self.minibatch }) as usize
     }
 
-    /// Returns the factor on batch and minibatch after so many environment steps. Late in a run, noisy gradients keep a policy
-    /// from its best, and a larger batch has the effect of a lower learning rate (Smith et al. 2018, arXiv:1711.00489).
+    /// Returns the factor on batch and minibatch after so many environment steps. Late in a run, noisy gradients keep a
+    /// policy from its best, and a larger batch has the effect of a lower learning rate (Smith et al. 2018,
+    /// arXiv:1711.00489).
     pub fn growth(&self, env_steps: u64) -> u32 {
         let times = env_steps.checked_div(self.batch_growth_steps).unwrap_or(0);
         let doublings = u64::BITS - times.leading_zeros();

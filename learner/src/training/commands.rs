@@ -110,14 +110,13 @@ impl Trainer {
 
     /// Lets every part adopt a configuration in which `key` has changed, and saves it.
     fn adopt(&mut self, key: &str, changed: Config) -> Result<(), TrainingError> {
-        let Self { state, config, growth, learning, serving, reporting, .. } = self;
+        let Self { state, config, learning, serving, reporting, .. } = self;
         state.config_toml = changed.to_toml();
         // The goal of this start may be nearer than the one that is saved.
         let steps = if key == "run.steps" { changed.run.steps } else { config.run.steps };
         *config = changed;
         config.run.steps = steps;
         let grown = config.grown(state.counters.env_steps);
-        *growth = config.ppo.growth(state.counters.env_steps);
         state.ppo.adopt_key(key, &config.ppo);
         learning.set_config(&grown);
         serving.set_config(state, &grown);

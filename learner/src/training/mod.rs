@@ -83,7 +83,7 @@ pub fn train(
 fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
     let mut stopwatch = Stopwatch::start();
     while trainer.state.counters.env_steps < trainer.config.run.steps {
-        let log = stopwatch.lap();
+        let (before, log) = (trainer.state.counters.env_steps, stopwatch.lap());
         let Some(mut batch) = trainer.collect()? else { return Ok(true) };
         let collect = stopwatch.lap();
         let update = trainer.update(&mut batch)?;
@@ -97,7 +97,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let learn = update.learn;
         let durations = PhaseDurations { collect, update: updating, learn, checkpoint, publish, serial };
         trainer.log(&Round { batch, update, evaluation, durations })?;
-        trainer.grow();
+        trainer.grow(before);
         trainer.publish_status(true);
     }
     Ok(false)
@@ -126,8 +126,6 @@ struct Trainer {
     heartbeat: Heartbeat,
     /// Whether an operator has paused the run.
     is_paused: bool,
-    /// Factor by which batches have grown.
-    growth: u32,
     /// Whether an operator has stopped the run.
     is_stopped: bool,
     learning: Learning,
@@ -182,12 +180,10 @@ impl Trainer {
         Ok(())
     }
 
-    /// Lets batches grow with the steps of the run.
-    fn grow(&mut self) {
+    /// Lets batches grow with the steps of the run, of which there were fewer `before`.
+    fn grow(&mut self, before: u64) {
         let steps = self.state.counters.env_steps;
-        let growth = self.config.ppo.growth(steps);
-        if growth != self.growth {
-            self.growth = growth;
+        if self.config.growth(steps) != self.config.growth(before) {
             let grown = self.config.grown(steps);
             self.learning.set_config(&grown);
             self.serving.set_rule(&self.state, &grown);

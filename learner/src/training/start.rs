@@ -23,7 +23,7 @@ impl Trainer {
         state.lineage.set_epoch(options.epoch);
         let mut config = state.config().map_err(|why| TrainingError::State { why })?;
         config.run.steps = options.steps;
-        let (growth, grown) = (config.ppo.growth(state.counters.env_steps), config.grown(state.counters.env_steps));
+        let grown = config.grown(state.counters.env_steps);
         let learning = Learning::new(&state, &grown, options)?;
         let (heartbeat, pending, shutdown) = (options.heartbeat.clone(), PendingWrites::default(), shutdown.clone());
         let overtaken = leadership.as_ref().map(Leadership::overtaken).unwrap_or_default();
@@ -37,6 +37,6 @@ impl Trainer {
         let (serving, stats) = Serving::open(bus, &state, &grown, options, storage, pending)?;
         let reporting = Reporting::new(report, history, stats, &state, options, retry)?;
         let (is_paused, is_stopped) = (false, false);
-        Ok(Self { state, config, shutdown, heartbeat, is_paused, growth, is_stopped, learning, serving, reporting })
+        Ok(Self { state, config, shutdown, heartbeat, is_paused, is_stopped, learning, serving, reporting })
     }
 }
