@@ -168,7 +168,7 @@ def state_errors(context):
         print(f"{example} does not exist: state errors are left out", file=sys.stderr)
         return {}
     with tempfile.TemporaryDirectory() as folder:
-        candidates = fidelity.Candidates(fidelity.OpenLoop(example, pathlib.Path(folder)), None, context.substeps)
+        candidates = fidelity.Candidates(fidelity.OpenLoop(example, pathlib.Path(folder)), context.substeps)
         candidates.keep([candidates.default, fidelity.euler_name(2), fidelity.euler_name(5)])
         played = fidelity.random_cases()
         flight = fidelity.rollouts(candidates, played["flights"], (0.15,), contact=False, limits=True)

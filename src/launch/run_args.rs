@@ -7,14 +7,15 @@ use treadmill_config::{ConfigSource, EnvTask};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::device::DeviceKind;
-use treadmill_runtime::numbers::parse_count;
+use treadmill_runtime::{numbers::parse_count, words::nearest};
 
 use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
 
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, smoke or sim2sim.
+    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, sim2sim, smoke, or that of a
+    /// robot, which --model gives: g1, g1-29, g1-rough, h1 or t1.
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.
@@ -23,8 +24,8 @@ pub struct NewRunArgs {
     /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Task: humanoid-v5, humanoid-v4, `external` for the task that the first actor registers, or the name of such a task,
-    /// as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
+    /// Task: humanoid-v5, humanoid-v4, velocity, `external` for the task that the first actor registers, or the name of
+    /// such a task, with a slash, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
     #[arg(long, value_name = "NAME")]
     pub task: Option<String>,
     /// Seed of every random stream.
@@ -136,11 +137,14 @@ fn task_keys(name: &str, tasks: &TaskRegistry) -> Result<Vec<(&'static str, toml
     if tasks.own_names().contains(&name) {
         return Ok(vec![("env.own_task", name.into())]);
     }
-    let ours = name.to_lowercase();
-    if EnvTask::NAMES.contains(&ours.as_str()) {
+    if !name.contains('/') {
+        let known: Vec<&str> = EnvTask::NAMES.iter().copied().chain(tasks.own_names()).collect();
+        let meant =
+            nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
+        let known = known.join(", ");
         return Err(Usage(format!(
-            "--task {name}: the built-in task is `{ours}`; `gymnasium/{name}` is Gymnasium's own, which Python actors \
-             simulate"
+            "--task {name}: there is no such task; {meant}Tasks of this program: {known}. Tasks that other programs simulate \
+             have a slash, as in `gymnasium/{name}`; for others give --task external --set task.name={name}"
         )));
     }
     Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])

@@ -175,4 +175,8 @@ fn flags_of_other_programs_get_a_hint() {
     }
     let task = self::run(folder.path(), &["train", "--task", "Humanoid-v5"]);
     assert_refused(&task, 2, &["--task Humanoid-v5", "`humanoid-v5`", "`gymnasium/Humanoid-v5`"]);
+    for command in ["train", "learner"] {
+        let task = self::run(folder.path(), &[command, "--task", "velocty"]);
+        assert_refused(&task, 2, &["--task velocty", "did you mean `velocity`", "humanoid-v4", "task.name=velocty"]);
+    }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::support::*;
+use treadmill_config::{EnvTask, PRESETS};
 
 fn train(args: &[&str]) -> std::process::Output {
     let (folder, run) = folders();
@@ -11,6 +12,16 @@ fn train(args: &[&str]) -> std::process::Output {
     let output = self::run(folder.path(), &all);
     assert!(!run.exists(), "no folder is left behind by {args:?}");
     output
+}
+
+#[test]
+fn the_help_names_every_preset_and_task() {
+    let (folder, _) = folders();
+    let help = stdout(&done(folder.path(), &["train", "--help"]));
+    let words: Vec<&str> = help.split(|c: char| !c.is_ascii_alphanumeric() && c != '-').collect();
+    for name in PRESETS.iter().map(|(name, _)| name).chain(EnvTask::NAMES) {
+        assert!(words.contains(name), "`{name}` is missing in: {help}");
+    }
 }
 
 #[test]

@@ -43,7 +43,8 @@ impl CommandFile {
     fn parse(text: &str) -> Result<Self, String> {
         let (mut times_s, mut commands) = (Vec::new(), Vec::new());
         let mut may_be_header = true;
-        for (number, line) in (1..).zip(text.lines()) {
+        // Spreadsheets begin with a byte order mark.
+        for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             let content = line.split('#').next().unwrap_or_default().trim();
             if content.is_empty() {
                 continue;
@@ -119,7 +120,7 @@ mod tests {
 
     #[test]
     fn each_command_holds_until_the_next_one() {
-        let file = "# turns\ntime_s, vx, vy, yaw_rate\n0,0.5,0,0\n\n 0.3 , -5, 0.1,1e-1 # turn\n2,0,0,5\n";
+        let file = "\u{feff}# turns\ntime_s, vx, vy, yaw_rate\n0,0.5,0,0\n\n 0.3 , -5, 0.1,1e-1 # turn\n2,0,0,5\n";
         let file = CommandFile::parse(file).unwrap();
         let (first, second, third) = ([0.5, 0.0, 0.0], [-5.0, 0.1, 0.1], [0.0, 0.0, 5.0]);
         for (time_s, expected) in
