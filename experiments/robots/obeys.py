@@ -2,7 +2,7 @@
 """Measures how long a robot trains until it obeys velocity commands: the rows of time_to_obey.csv.
 
 Usage: obeys.py PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--first 1]
-                [--set KEY=VALUE ...]
+                [--all] [--set KEY=VALUE ...]
 
 A robot obeys at the first checkpoint that, played without exploration for 100 episodes of 20 s with drawn commands and with the
 pushes of the training, misses the commanded velocity by at most the first error (m/s) and the yaw rate by at most the second
@@ -51,8 +51,7 @@ def began_unix_s(folder):
 
 def measured(found):
     """Returns what a simulator's summary says of velocity (m/s), yaw rate (rad/s) and falls."""
-    falls = found["falls"] if "falls" in found else round(found["fall_fraction"] * EPISODES)
-    return {"velocity_mps": found["velocity_error_mps"], "yaw_radps": found["yaw_rate_error_radps"], "falls": falls}
+    return {"velocity_mps": found["velocity_error_mps"], "yaw_radps": found["yaw_rate_error_radps"], "falls": found["falls"]}
 
 
 def here(program, folder, update):
