@@ -249,9 +249,9 @@ fn flags_that_contradict_an_external_task_are_refused_before_anything_is_written
         output
     };
     assert_refused(&with("train", &["--task", "external"]), 2, &["`treadmill learner`"]);
-    assert_refused(&with("learner", &["--task", "a b"]), 2, &["`task.name`", "\"a b\"", "128"]);
+    assert_refused(&with("learner", &["--task", "gymnasium/a b"]), 2, &["`task.name`", "\"gymnasium/a b\"", "128"]);
     assert_refused(&with("learner", &["--task", "external", "--model", "my.xml"]), 2, &["my.xml", "external"]);
-    let huge = ["--task", "a", "--set", "task.observation_size=4096", "--set", "task.action_size=1"];
+    let huge = ["--task", "mine/a", "--set", "task.observation_size=4096", "--set", "task.action_size=1"];
     let ranges = ["--set", "task.action_low=[-1]", "--set", "task.action_high=[1]", "--set", "policy.hidden=[4096]"];
     assert_refused(&with("learner", &[&huge[..], &ranges[..]].concat()), 2, &["parameters", "policy.hidden"]);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--set", "env.task=external"]), 2, &["env.task"]);

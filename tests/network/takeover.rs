@@ -120,7 +120,9 @@ fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
     // The ledger of the whole run, over both learners, agrees with the actor's own count.
     let accounts = fs::read_to_string(fleet.folder.path().join("second/accounts.jsonl")).unwrap();
     let account: Value = serde_json::from_str(accounts.lines().next().expect("one actor")).unwrap();
-    assert_eq!((&account["missing"], &account["unseen"]), (&Value::from(0), &Value::from(0)), "{account}");
+    assert_eq!(account["unseen"], 0, "{account}");
+    // Of the two fragments that an actor sends at once, the stop may have come between the second and the first.
+    assert!(account["missing"].as_u64().is_some_and(|missing| missing <= 1), "{account}");
     let learnt = manifest["env_steps"].as_u64().expect("a number");
     let left = account["env_steps"].as_u64().expect("a number") - learnt;
     assert!(left < 4 * 512, "{left} accepted steps are in no state");

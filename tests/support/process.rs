@@ -2,7 +2,7 @@
 
 use std::{
     io::{BufRead, BufReader},
-    process::{Child, Command, ExitStatus, Stdio},
+    process::{Child, Command, ExitStatus},
     sync::mpsc::{Receiver, RecvTimeoutError, channel},
     time::{Duration, Instant},
 };
@@ -16,23 +16,20 @@ pub struct Running {
 }
 
 impl Running {
-    /// Starts a process and reads its standard output and standard error.
+    /// Starts a process and reads its standard output and standard error, which share a pipe: lines come in the order in
+    /// which they were written.
     pub fn start(mut command: Command) -> Self {
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        let both = writer.try_clone().expect("a pipe");
+        let child = command.stdout(both).stderr(writer).spawn().expect("the binary starts");
         let (sender, lines) = channel();
-        let out = child.stdout.take().expect("piped");
-        let err = child.stderr.take().expect("piped");
-        let streams: [Box<dyn std::io::Read + Send>; 2] = [Box::new(out), Box::new(err)];
-        for stream in streams {
-            let sender = sender.clone();
-            std::thread::spawn(move || {
-                for line in BufReader::new(stream).lines().map_while(Result::ok) {
-                    if sender.send(line).is_err() {
-                        return;
-                    }
+        std::thread::spawn(move || {
+            for line in BufReader::new(reader).lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    return;
                 }
-            });
-        }
+            }
+        });
         Self { child, lines }
     }
 
