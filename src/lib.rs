@@ -31,7 +31,7 @@ use crate::{
 ///
 /// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration, 130 after a second Ctrl-C.
 #[derive(Parser)]
-#[command(name = "treadmill", version, max_term_width = 110)]
+#[command(name = "treadmill", version = treadmill_runtime::program::version(), max_term_width = 110)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -89,6 +89,7 @@ enum Command {
 /// # Panics
 /// As [`humanoid::TaskRegistry::new`].
 pub fn main(own_tasks: &[(&'static str, humanoid::task::TaskBuilder)]) -> ExitCode {
+    treadmill_runtime::program::set_commit(env!("TREADMILL_COMMIT"));
     let tasks = humanoid::TaskRegistry::new(own_tasks);
     if !processor::is_supported() {
         return ExitCode::FAILURE;

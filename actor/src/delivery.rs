@@ -12,7 +12,7 @@ use bytes::Bytes;
 use treadmill_bus::{Bus, BusError, actor::submit};
 use treadmill_experience::delivery::{Action, Attempt, Delivery, DeliveryCounts, Event, settles};
 use treadmill_proto::{ActorStats, Outcome, Receipt};
-use treadmill_runtime::machine;
+use treadmill_runtime::{machine, program};
 
 use crate::policy_fetcher::{PolicyFetcher, Refresh};
 
@@ -84,7 +84,7 @@ impl Uploader {
             resent: counts.resent,
             awaiting_durability: counts.awaiting_durability,
             resident_bytes: machine::resident_bytes(),
-            program_version: env!("CARGO_PKG_VERSION").to_string(),
+            program_version: program::version().to_string(),
             ..ActorStats::default()
         }
     }

@@ -3,7 +3,9 @@
 pub mod state;
 
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, ModelError, TaskRegistry, VectorEnvironment, environment::Slot, task::StepOutcome,
+    Environment, EnvironmentConfig, ModelError, TaskRegistry, VectorEnvironment,
+    environment::Slot,
+    task::{Reached, StepOutcome},
 };
 use treadmill_proto::{
     EndCause, Episode, Precision,
@@ -131,6 +133,16 @@ impl Environments {
         let mut environments = Self { vector, seeds: seeds.reset_seeds(), precision: Precision::F32, reward_sums };
         environments.reset();
         Ok(environments)
+    }
+
+    /// Begins with curricula that other environments of the run have reached.
+    pub fn adopt_curricula(&mut self, reached: &Reached<'_>) {
+        let stream = format!("curricula/{}", self.seeds.actor);
+        for (slot, _) in self.vector.rows() {
+            let seed = seeds::derive(self.seeds.run_seed, &stream, &[self.seeds.start, slot.kept.env as u64]);
+            slot.environment.adopt_curricula(reached, seed);
+        }
+        self.reset();
     }
 
     /// Resets all environments to their first episodes.
@@ -298,6 +310,7 @@ fn finish_step(
         distance_m,
         velocity_mean_mps: distance_m / (f64::from(progress.length) * environment.control_step_s()),
         cause,
+        ground_kind: difficulty.ground_kind,
         ground_level: difficulty.ground_level,
         command_factor: difficulty.command_factor,
     });

@@ -14,6 +14,7 @@ use treadmill_bus::{
     actor::{PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
     observer::{newest_of_each_run, statuses},
 };
+use treadmill_humanoid::task::Reached;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
 use treadmill_runtime::{epoch::SeenEpoch, seeds, shutdown::Shutdown};
 
@@ -186,7 +187,12 @@ impl<'a> Membership<'a> {
         };
         let environments =
             Environments::new(options.envs as usize, &options.tasks, &settings.environment, &bundle.model_xml, seeds)?;
-        let environments = environments.with_precision(settings.precision());
+        let mut environments = environments.with_precision(settings.precision());
+        environments.adopt_curricula(&Reached {
+            ground_kinds: &bundle.curriculum_kinds,
+            ground_levels: &bundle.curriculum_levels,
+            command_factors: &bundle.curriculum_factors,
+        });
         let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
         let found = (environments.observation_size(), environments.action_size());
         if wanted != found {

@@ -72,6 +72,7 @@ fn fragment_message() -> Fragment {
             distance_m: 0.1,
             velocity_mean_mps: 3.0,
             cause: EndCause::TimeLimit,
+            ground_kind: Some(1),
             ground_level: Some(1.0),
             command_factor: Some(0.5),
         }],
@@ -127,6 +128,9 @@ pub fn bundle() -> Vec<u8> {
         privileged_size: 0,
         observation_mirror: Vec::new(),
         action_mirror: Vec::new(),
+        curriculum_kinds: vec![1],
+        curriculum_levels: vec![2],
+        curriculum_factors: vec![0.5],
     }
     .encode()
     .expect("a valid message")
@@ -197,6 +201,7 @@ pub fn exported() -> Vec<u8> {
         mean,
         variance,
         action: ActionFacts { names: vec!["hip".into()], low: vec![-0.4], high: vec![0.4] },
+        returns: None,
         control_step_s: 0.015,
         settings: Config::default().episodes_toml(),
         model_xml: "<mujoco/>".into(),

@@ -6,7 +6,7 @@ use prost::Message;
 use crate::{
     ActorState, Malformed, PolicyVersion, check_range, check_size,
     ident::check_ident,
-    limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
+    limits::{BUNDLE_BYTES_MAX, CURRICULUM_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     mirror,
     pieces::Cursor,
     planes,
@@ -97,6 +97,12 @@ pub struct PolicyBundle {
     pub observation_mirror: Vec<i32>,
     /// Mirror image of an action.
     pub action_mirror: Vec<i32>,
+    /// Kinds of ground of the last episodes, and their levels: what new environments draw their own from.
+    pub curriculum_kinds: Vec<u32>,
+    /// Level for each of the kinds.
+    pub curriculum_levels: Vec<u32>,
+    /// Factors on the ranges of commands of the last episodes.
+    pub curriculum_factors: Vec<f32>,
 }
 
 impl PolicyBundle {
@@ -135,13 +141,31 @@ impl PolicyBundle {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
         }
         check_fragment_steps(self.fragment_steps)?;
+        let (kinds, levels) = (self.curriculum_kinds.len(), self.curriculum_levels.len());
+        if levels != kinds {
+            return Err(Malformed::length("curriculum_levels", levels, format!("{kinds}, one for each kind")));
+        }
+        for (field, count) in [("curriculum_kinds", kinds), ("curriculum_factors", self.curriculum_factors.len())] {
+            if count > CURRICULUM_MAX {
+                return Err(Malformed::field(field, count, format!("at most {CURRICULUM_MAX} numbers")));
+            }
+        }
+        planes::check_finite("curriculum_factors", &self.curriculum_factors)?;
         self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
     }
 
     /// Returns the bundle without configuration, model and state of an actor, for actors that have the same configuration.
     #[must_use]
     pub fn without_config(&self) -> Self {
-        Self { config_toml: String::new(), model_xml: String::new(), actor_state: None, ..self.clone() }
+        Self {
+            config_toml: String::new(),
+            model_xml: String::new(),
+            actor_state: None,
+            curriculum_kinds: Vec::new(),
+            curriculum_levels: Vec::new(),
+            curriculum_factors: Vec::new(),
+            ..self.clone()
+        }
     }
 
     /// Encodes as protobuf.
@@ -151,7 +175,8 @@ impl PolicyBundle {
             wire::PolicyBundle,
             clone self [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
-                privileged_size, observation_mirror, action_mirror],
+                privileged_size, observation_mirror, action_mirror, curriculum_kinds, curriculum_levels,
+                curriculum_factors],
             {
                 version: Some(self.version),
                 observation_mean: planes::to_bytes(&self.observation_mean),
@@ -176,7 +201,8 @@ impl PolicyBundle {
             Self,
             message [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
-                privileged_size, observation_mirror, action_mirror],
+                privileged_size, observation_mirror, action_mirror, curriculum_kinds, curriculum_levels,
+                curriculum_factors],
             {
                 version: version::required(message.version)?,
                 observation_mean: plane("observation_mean", &message.observation_mean)?,
@@ -194,6 +220,10 @@ fn check_counts(bytes: &[u8]) -> Result<(), Malformed> {
         (5, "hidden", HIDDEN_LAYERS_MAX, 0),
         (20, "observation_mirror", WIDTH_MAX as usize, 0),
         (21, "action_mirror", WIDTH_MAX as usize, 0),
+        (22, "curriculum_kinds", CURRICULUM_MAX, 0),
+        (23, "curriculum_levels", CURRICULUM_MAX, 0),
+        // Four bytes each.
+        (24, "curriculum_factors", CURRICULUM_MAX, 0),
     ];
     scan::all(BUNDLE, Cursor::whole(bytes), |field| {
         if let Some((_, _, _, size)) = lists.iter_mut().find(|(number, ..)| *number == field.number) {
@@ -237,6 +267,9 @@ mod tests {
             privileged_size: 1,
             observation_mirror: vec![1, -2],
             action_mirror: vec![-1],
+            curriculum_kinds: vec![0, 2],
+            curriculum_levels: vec![7, 300],
+            curriculum_factors: vec![0.5],
         }
     }
 
@@ -277,6 +310,9 @@ mod tests {
             config_toml: whole.config_toml.clone(),
             model_xml: whole.model_xml.clone(),
             actor_state: whole.actor_state.clone(),
+            curriculum_kinds: whole.curriculum_kinds.clone(),
+            curriculum_levels: whole.curriculum_levels.clone(),
+            curriculum_factors: whole.curriculum_factors.clone(),
             ..PolicyBundle::decode(short.encode().unwrap()).unwrap()
         };
         assert_eq!(restored, whole);
@@ -290,6 +326,13 @@ mod tests {
         assert!(bad.encode().unwrap_err().to_string().contains("index 1"));
         let bad = PolicyBundle { hidden: vec![], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("hidden"));
+        let bad = PolicyBundle { curriculum_levels: vec![1], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("curriculum_levels"));
+        let many = vec![1; CURRICULUM_MAX + 1];
+        let bad = PolicyBundle { curriculum_kinds: many.clone(), curriculum_levels: many, ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("curriculum_kinds"));
+        let bad = PolicyBundle { curriculum_factors: vec![f32::NAN], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("curriculum_factors"));
         let mut bad = sample();
         bad.actor_state.as_mut().unwrap().streams.pop();
         assert!(bad.encode().unwrap_err().to_string().contains("actor_state.streams"));

@@ -6,7 +6,7 @@ use prost::Message;
 use crate::{
     ActorState, Malformed, PolicyVersion, Precision, check_range, check_size,
     ident::check_ident,
-    limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
+    limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, GROUND_KINDS_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes,
     reward_term::{self, RewardTerm},
@@ -56,6 +56,8 @@ pub struct Episode {
     pub velocity_mean_mps: f64,
     /// Cause of the end.
     pub cause: EndCause,
+    /// Kind of the ground, below 64; `None` where the task has no kinds.
+    pub ground_kind: Option<u32>,
     /// Level of the ground's difficulty, from 0; `None` where the task has no levels.
     pub ground_level: Option<f64>,
     /// Factor on the ranges of commands; `None` where the task has no such curriculum.
@@ -175,6 +177,10 @@ impl Fragment {
         for (index, episode) in self.episodes.iter().enumerate() {
             let difficulty = episode.ground_level.unwrap_or(0.0) + episode.command_factor.unwrap_or(0.0);
             let sum = episode.return_sum + episode.distance_m + episode.velocity_mean_mps + difficulty;
+            if episode.ground_kind.is_some_and(|kind| kind >= GROUND_KINDS_MAX) {
+                let found = format!("{:?} at index {index}", episode.ground_kind);
+                return Err(Malformed::field("episodes.ground_kind", found, format!("less than {GROUND_KINDS_MAX}")));
+            }
             if !sum.is_finite() {
                 return Err(Malformed::NotFinite { field: "episodes", index, value: format!("{episode:?}") });
             }
@@ -340,7 +346,7 @@ impl From<&Episode> for wire::Episode {
         let cause = CAUSES.iter().find(|(ours, _)| *ours == episode.cause).map(|(_, wire)| *wire);
         message!(
             Self,
-            episode [return_sum, length, distance_m, velocity_mean_mps, ground_level, command_factor],
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor],
             { cause: cause.unwrap_or_default().into() }
         )
     }
@@ -354,7 +360,7 @@ impl TryFrom<&wire::Episode> for Episode {
         let cause = cause.ok_or_else(|| Malformed::field("episodes.cause", episode.cause, "1 to 4"))?;
         Ok(message!(
             Self,
-            episode [return_sum, length, distance_m, velocity_mean_mps, ground_level, command_factor],
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor],
             { cause: cause }
         ))
     }

@@ -28,6 +28,7 @@ pub(crate) fn sample() -> Fragment {
             distance_m: 0.1,
             velocity_mean_mps: 3.0,
             cause: EndCause::TimeLimit,
+            ground_kind: Some(2),
             ground_level: Some(3.0),
             command_factor: None,
         }],

@@ -108,6 +108,7 @@ mod tests {
             distance_m: 0.25,
             velocity_mean_mps: 0.5,
             cause: EndCause::Fell,
+            ground_kind: None,
             ground_level: None,
             command_factor: None,
         };

@@ -25,6 +25,10 @@ pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
 /// Largest piece of a policy bundle. With its header it fits into one batch of the bus, which has 32 to 64 KiB
 /// depending on the link.
 pub const PIECE_BYTES_MAX: usize = 30_000;
+/// Most episodes whose curricula a bundle holds.
+pub const CURRICULUM_MAX: usize = 16_384;
+/// Kinds of ground that have a number.
+pub const GROUND_KINDS_MAX: u32 = 64;
 /// Largest encoded state of an actor, which is part of fragments and bundles.
 pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
 /// Longest model text, equal to the environment's limit.

@@ -1,12 +1,17 @@
 //! Policy as an ONNX model: its input is raw observations, its output actions between a lowest and a highest one.
 //!
 //! ```text
-//! input ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ output
+//! input ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ Add ─ output
+//!   └─ Sub itself ─ ReduceSum ────────────────────────────────────────────────────────────────────┘
 //! ```
+//!
+//! The second way is 0, but NaN if an entry is NaN or infinite. Many runtimes turn NaN into a bound of Clip, and a broken
+//! sensor into a confident action.
 //!
 //! Operators are those of operator set 13, which current runtimes support. Input and output are `[batch, width]`, see
 //! [`Ports`].
 
+use bytes::Bytes;
 use prost::Message;
 
 use crate::{planes, wire_onnx as wire};
@@ -15,6 +20,7 @@ use crate::{planes, wire_onnx as wire};
 const IR_VERSION: i64 = 7;
 const OPERATORS: i64 = 13;
 const FLOAT32: i32 = 1;
+const INT64: i32 = 7;
 
 /// One dense layer, `y = W x + b`.
 #[derive(Clone, Copy, Debug)]
@@ -82,13 +88,7 @@ impl OnnxPolicy<'_> {
             let names = [format!("actor.{number}.weight"), format!("actor.{number}.bias")];
             graph.constant(&names[0], &[outputs, inputs], weight);
             graph.constant(&names[1], &[outputs], bias);
-            let transposed = wire::AttributeProto {
-                name: "transB".to_string(),
-                i: 1,
-                r#type: wire::attribute_proto::AttributeType::Int.into(),
-                ..Default::default()
-            };
-            x = graph.node("Gemm", &[&x, &names[0], &names[1]], &format!("dense.{number}"), &[transposed]);
+            x = graph.node("Gemm", &[&x, &names[0], &names[1]], &format!("dense.{number}"), &[whole("transB", 1)]);
             if number + 1 < self.layers.len() {
                 x = graph.node("Elu", &[&x], &format!("hidden.{number}"), &[]);
             }
@@ -100,7 +100,11 @@ impl OnnxPolicy<'_> {
         graph.constant("action_half", &[half.len()], &half);
         graph.constant("action_centre", &[centre.len()], &centre);
         let x = graph.node("Mul", &[&x, "action_half"], "stretched", &[]);
-        graph.node("Add", &[&x, "action_centre"], output, &[]);
+        let x = graph.node("Add", &[&x, "action_centre"], "bounded", &[]);
+        graph.tensor("entries", &[1], INT64, 1_i64.to_le_bytes().to_vec().into());
+        let zeros = graph.node("Sub", &[input, input], "zeros", &[]);
+        let fault = graph.node("ReduceSum", &[&zeros, "entries"], "fault", &[whole("keepdims", 1)]);
+        graph.node("Add", &[&x, &fault], output, &[]);
         let model = wire::ModelProto {
             ir_version: IR_VERSION,
             producer_name: "treadmill".to_string(),
@@ -132,12 +136,12 @@ struct Graph {
 
 impl Graph {
     fn constant(&mut self, name: &str, shape: &[usize], numbers: &[f32]) {
-        self.constants.push(wire::TensorProto {
-            dims: shape.iter().map(|length| *length as i64).collect(),
-            data_type: FLOAT32,
-            name: name.to_string(),
-            raw_data: planes::to_bytes(numbers),
-        });
+        self.tensor(name, shape, FLOAT32, planes::to_bytes(numbers));
+    }
+
+    fn tensor(&mut self, name: &str, shape: &[usize], data_type: i32, raw_data: Bytes) {
+        let dims = shape.iter().map(|length| *length as i64).collect();
+        self.constants.push(wire::TensorProto { dims, data_type, name: name.to_string(), raw_data });
     }
 
     /// Adds an operation; returns the name of its output.
@@ -158,6 +162,12 @@ impl Graph {
         self.constant(&names[1], &[], &[high]);
         self.node("Clip", &[input, &names[0], &names[1]], output, &[])
     }
+}
+
+/// Returns an attribute that is a whole number.
+fn whole(name: &str, i: i64) -> wire::AttributeProto {
+    let r#type = wire::attribute_proto::AttributeType::Int.into();
+    wire::AttributeProto { name: name.to_string(), i, r#type, ..Default::default() }
 }
 
 /// Returns an input or output of shape `[batch, width]`.

@@ -40,6 +40,7 @@ fn fragment() -> Fragment {
         distance_m: 0.1,
         velocity_mean_mps: 3.0,
         cause,
+        ground_kind: None,
         ground_level: None,
         command_factor: None,
     };

@@ -252,6 +252,21 @@ class RolloutTest(unittest.TestCase):
             self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
             self.assertTrue(np.isfinite(environments.observations).all())
 
+    def test_shapes_beside_the_space_are_named(self):
+        environments = Environments(Count, "test/Count-v0", 1, 1)
+        step = lambda observation, reward: setattr(environments.envs[0], "step", lambda _: (observation, reward, False, False, {}))  # noqa: E731
+        step(np.zeros(3), 1.0)
+        with self.assertRaisesRegex(TaskError, r"`test/Count-v0` gives an observation of shape \(3,\), but its .* shape \(2,\)"):
+            environments.step(np.zeros((1, 2), np.float32))
+        step(np.zeros(2), np.zeros(2))
+        with self.assertRaisesRegex(TaskError, r"gives a reward of shape \(2,\); it must be one number"):
+            environments.step(np.zeros((1, 2), np.float32))
+        step(np.zeros((1, 2)), np.array([3.0]))
+        self.assertEqual(environments.step(np.zeros((1, 2), np.float32))[0][0], 3.0)
+        environments.envs[0].reset = lambda seed=None: (np.zeros(()), {})
+        with self.assertRaisesRegex(TaskError, r"of shape \(\), but"):
+            environments.reset()
+
     def test_terms_of_the_reward_are_means_over_the_fragment(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)
         for number, env in enumerate(environments.envs):

@@ -23,7 +23,7 @@ except ImportError as why:
 
 from treadmill_transfer import cli, errors
 from treadmill_transfer.commands import DrawnCommands, FileCommands, Pushes, read_commands
-from treadmill_transfer.contract import Policy, read_contract
+from treadmill_transfer.contract import Policy, TransferError, read_contract
 from treadmill_transfer.controller import Controller, height_scan, phase
 from treadmill_transfer.ground import Ground
 from treadmill_transfer.play import play_episode, summary
@@ -96,7 +96,10 @@ class TransferTest(unittest.TestCase):
         numpy.testing.assert_allclose(second[WIDTH + 13 :], [1.0, 4.0, math.sin(angle), math.cos(angle)])
         self.assertEqual(controller.entry_name(WIDTH + 12), "joint_vel_rel[left_arm]")
         self.assertEqual(controller.entry_name(1), "base_ang_vel[1], 1 frames ago")
-        self.assertAlmostEqual(phase(policy.contract, 10)[0], 1.0)
+        self.assertAlmostEqual(phase(policy.contract, 10, numpy.zeros(3))[0], 1.0)
+        policy.contract.gait_rests_below = 0.1
+        numpy.testing.assert_array_equal(phase(policy.contract, 10, numpy.array([0.05, 0.05, 0.06])), [0.0, 0.0])
+        self.assertAlmostEqual(phase(policy.contract, 10, numpy.array([0.06, 0.06, 0.06]))[0], 1.0)
 
     def test_velocity_is_seen_in_the_heading_frame(self):
         cos, sin = math.cos(0.3), math.sin(0.3)
@@ -118,6 +121,60 @@ class TransferTest(unittest.TestCase):
         velocities[100:150] = [0.4, -0.1, 0.2]
         found = errors.window_errors(velocities, commands, [0], 0.02)
         numpy.testing.assert_allclose(found, [[0.5, 0.1], [0.1, 0.0]], atol=1e-12)
+
+    def test_a_robot_that_is_to_stand_is_measured_after_two_seconds(self):
+        commands = numpy.zeros((400, 3))
+        commands[150:200] = [0.1, 0.0, 0.0]
+        spans = errors.rests(commands, [0, 150, 200], 0.02)
+        self.assertEqual(spans, [(100, 150), (300, 400)])
+        # A heading turns the robot without a new command.
+        commands[340:350] = [0.0, 0.0, 0.2]
+        self.assertEqual(errors.rests(commands, [0, 150, 200], 0.02), [(100, 150), (300, 340), (350, 400)])
+        places, rates, standing = numpy.zeros((400, 2)), numpy.zeros((400, 2)), numpy.ones((400, 2), dtype=bool)
+        places[:100], rates[:100], standing[:99] = 9.0, 9.0, False
+        places[120], rates[130], standing[140], standing[320, 1] = [0.3, 0.4], [3.0, 1.0], False, False
+        found = errors.still(places, rates, standing, spans)
+        numpy.testing.assert_allclose(found, [[0.5, 50, 5.0, 2], [0.0, 100, 0.0, 1]])
+
+    def test_servos_inherit_nothing_of_the_file(self):
+        defaults = '<default><general gear="60" ctrllimited="true" ctrlrange="-0.1 0.1" delay="0.1" nsample="20"/></default>'
+        text = ROBOT.replace("FLOOR", FLOOR)
+        plain = self.torques_of(text)
+        self.assertGreater(numpy.abs(plain).max(), 1.0)
+        numpy.testing.assert_array_equal(self.torques_of(text.replace("<worldbody>", defaults + "<worldbody>")), plain)
+        limited = text.replace('name="left_arm"', 'name="left_arm" actuatorfrcrange="-0.1 0.1"')
+        self.assertNotEqual(limited, text)
+        numpy.testing.assert_array_equal(self.torques_of(limited), plain)
+        notes = Robot(self.model, read_contract(json.dumps(contract()))).notes
+        self.assertTrue(any("`left_arm` to 0.1 N·m, the contract to 6 N·m" in note for note in notes), notes)
+
+    def torques_of(self, text):
+        """Returns the forces on both arms while their servos move them far."""
+        self.model.write_text(text)
+        robot = Robot(self.model, read_contract(json.dumps(contract())))
+        robot.reset()
+        robot.step(numpy.array([0.6, -0.5]))
+        mujoco.mj_forward(robot.model, robot.data)
+        return robot.data.qfrc_actuator[robot._v].copy()
+
+    def test_a_broken_sensor_is_named(self):
+        policy = Policy(self.onnx)
+        controller = Controller(policy)
+        observation = numpy.zeros(policy.contract.width)
+        observation[WIDTH + 1] = math.nan
+        with self.assertRaisesRegex(TransferError, r"base_ang_vel\[1\] of the observation is not finite in step 1"):
+            controller.act(observation)
+
+    def test_feet_stand_on_what_carries_them(self):
+        text = ROBOT.replace("FLOOR", FLOOR)
+        self.model.write_text(text)
+        robot = Robot(self.model, read_contract(json.dumps(contract(feet_bodies=["base", "left"]))))
+        robot.reset()
+        robot.step(robot.contract.joints.default_rad)
+        self.assertEqual(robot.feet_stand().tolist(), [True, False])
+        robot.position_m[2] += 1.0
+        mujoco.mj_forward(robot.model, robot.data)
+        self.assertEqual(robot.feet_stand().tolist(), [False, False])
 
     def test_commands_are_resampled_within_their_ranges(self):
         whole = read_contract(json.dumps(contract()))
@@ -196,13 +253,17 @@ class TransferTest(unittest.TestCase):
         pushed = [play_episode(robot, controller, 150, 1, 0) for _ in range(2)]
         self.assertEqual(pushed[0].distance_m, pushed[1].distance_m)
         self.assertNotEqual(pushed[0].distance_m, play_episode(robot, controller, 150, 2, 0).distance_m)
+        still = summary([play_episode(robot, controller, 150, 1, 0, [(0.0, numpy.zeros(3))], pushes=False)], 0.02)
+        self.assertEqual(still["standing_lifts_per_s"], 0.0)
+        self.assertTrue(still["standing_drift_m"] < 0.01 and still["standing_hinge_radps"] < 0.5, still)
         policy.contract.fall_height_m = 0.3
         fallen = play_episode(robot, controller, 150, 1, 0)
         self.assertEqual((fallen.steps, json.dumps(fallen.fell)), (1, "true"))
-        both = summary([episode, fallen])
+        both = summary([episode, fallen], 0.02)
+        self.assertIsNone(both["standing_drift_m"])
         self.assertEqual((both["episodes"], both["falls"], both["length_mean"], both["windows"]), (2, 1, 75.5, 2))
         self.assertAlmostEqual(both["velocity_error_mps"], episode.errors[:, 0].mean())
-        self.assertIsNone(summary([fallen])["velocity_error_mps"])
+        self.assertIsNone(summary([fallen], 0.02)["velocity_error_mps"])
 
     def test_a_ground_replaces_the_floor(self):
         heights = numpy.array([[0.5, 0.5, 0.9], [0.5, 0.5, 0.9]])
@@ -303,7 +364,7 @@ class TransferTest(unittest.TestCase):
         code, out, err = self.run_cli(self.onnx, "--model", self.model, "--episodes", 2, "--seconds", 3, "--json")
         self.assertEqual((code, err), (0, ""))
         result = json.loads(out.splitlines()[-1])
-        wanted = {"episodes", "falls", "velocity_error_mps", "yaw_rate_error_radps", "distance_mean_m", "length_mean"}
+        wanted = {"episodes", "falls", "velocity_error_mps", "yaw_rate_error_radps", "distance_mean_m", "length_mean", "standing_drift_m"}
         self.assertTrue(wanted <= set(result))
         self.assertEqual((result["episodes"], result["length_mean"]), (2, 150.0))
         code, out, _ = self.run_cli(self.onnx, "--model", self.model, "--episodes", 2, "--seconds", 3)

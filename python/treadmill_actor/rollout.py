@@ -47,11 +47,18 @@ class Environments:
 
     def _reset(self, index, seed=None):
         observation, info = self.envs[index].reset(seed=seed)
-        self.observations[index] = np.ravel(observation)
+        self.observations[index] = self._flat(self.envs[index], observation)
         if not np.isfinite(self.observations[index]).all():
             raise TaskError(f"the first observation of `{self.task.name}` is not finite")
         self.returns[index], self.lengths[index] = 0.0, 0
         self.starts[index] = self.positions[index] = number(info.get("x_position"))
+
+    def _flat(self, env, observation):
+        """Returns an observation as one row."""
+        shape, wanted = np.shape(observation), env.observation_space.shape
+        if math.prod(shape) != self.task.observation_size:
+            raise TaskError(f"`{self.task.name}` gives an observation of shape {shape}, but its observation_space has shape {wanted}")
+        return np.ravel(observation)
 
     def step(self, actions):
         """Steps all environments. Returns rewards, flags, last observations of truncated episodes, and finished episodes."""
@@ -63,7 +70,10 @@ class Environments:
             observation, reward, terminated, truncated, info = env.step(commands[index].reshape(env.action_space.shape))
             # Beyond single precision, which fragments have, is a fault too.
             with np.errstate(over="ignore"):
-                self.observations[index] = np.ravel(observation)
+                self.observations[index] = self._flat(env, observation)
+                if np.size(reward) != 1:
+                    raise TaskError(f"`{self.task.name}` gives a reward of shape {np.shape(reward)}; it must be one number")
+                reward = np.ravel(reward)[0]
                 fault = not (np.isfinite(self.observations[index]).all() and np.isfinite(np.float32(reward)))
             if fault:
                 # A numerical fault ends the episode with the last finite observation and reward 0.

@@ -134,7 +134,7 @@ def played(args, robot, controller, rows, ground):
             print(f"{index + 1:>7} {episode.steps:>7} {episode.distance_m:>11.2f} {velocity:>19} {yaw:>21}  {end}", flush=True)
         if viewer and not viewer.is_running():
             break
-    result = summary(episodes)
+    result = summary(episodes, robot.contract.control_step_s)
     if args.json:
         print(json.dumps(result))
         return
@@ -143,6 +143,9 @@ def played(args, robot, controller, rows, ground):
     print(f"episodes        {result['episodes']}, {result['falls']} of them ended with a fall")
     print(f"velocity error  {error(result['velocity_error_mps'], 'm/s')}")
     print(f"yaw rate error  {error(result['yaw_rate_error_radps'], 'rad/s')}")
+    if result["standing_drift_m"] is not None:
+        drift, hinges, lifts = (result[f"standing_{key}"] for key in ("drift_m", "hinge_radps", "lifts_per_s"))
+        print(f"standing        drifts {drift:.2f} m, hinges turn at {hinges:.2f} rad/s, {lifts:.2f} lifts/s of a foot")
     print(f"distance        {result['distance_mean_m']:.2f} m")
     print(f"length          {result['length_mean']:.1f} steps")
 

@@ -39,11 +39,13 @@ class Contract:
     action_limit: float
     held: Joints
     base_body: str
+    feet_bodies: list
     base_height_m: float
     base_orientation_wxyz: numpy.ndarray
     observation: list
     history: int
     gait_period_s: float
+    gait_rests_below: float
     ranges: numpy.ndarray
     resampling_s: tuple
     standing_share: float
@@ -128,11 +130,14 @@ def read_contract(text):
         action_limit=fields.number("action_limit", above=0.0),
         held=_joints(fields.part("held_joints")),
         base_body=fields.get("base_body"),
+        feet_bodies=fields.names("feet_bodies"),
         base_height_m=fields.number("default_base_height_m", above=0.0),
         base_orientation_wxyz=fields.numbers("default_base_orientation_wxyz", 4),
         observation=[(term["name"], term["size"]) for term in terms],
         history=int(history.number("frames", above=0.0)),
         gait_period_s=fields.number("gait_period_s", above=0.0),
+        # Files of older versions have a gait that never rests.
+        gait_rests_below=fields.number("gait_rests_below") if "gait_rests_below" in whole else 0.0,
         ranges=numpy.array([commands.numbers(name, 2) for name in ("lin_vel_x_mps", "lin_vel_y_mps", "ang_vel_z_radps")]),
         resampling_s=tuple(commands.numbers("resampling_s", 2)),
         standing_share=commands.number("standing_share"),
@@ -149,9 +154,7 @@ def read_contract(text):
 
 
 def _joints(fields):
-    names = fields.get("joint_names")
-    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise TransferError(f"`{fields.path}joint_names` is not a list of names")
+    names = fields.names("joint_names")
     keys = ("default_joint_pos", "joint_stiffness", "joint_damping", "joint_effort", "joint_armature")
     return Joints(names, *(fields.numbers(key, len(names)) for key in keys))
 
@@ -171,6 +174,12 @@ class _Fields:
 
     def part(self, key):
         return _Fields(self.get(key), f"{self.path}{key}.")
+
+    def names(self, key):
+        value = self.get(key)
+        if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+            raise TransferError(f"`{self.path}{key}` is not a list of names")
+        return value
 
     def number(self, key, above=None):
         value = self.get(key)

@@ -34,6 +34,10 @@ class Controller:
 
     def act(self, observation):
         """Returns the action of an observation, in units of the action."""
+        broken = numpy.flatnonzero(~numpy.isfinite(observation))
+        if len(broken):
+            entry, step = self.entry_name(int(broken[0])), self.steps + 1
+            raise TransferError(f"{entry} of the observation is not finite in step {step}: a broken sensor, or a model that diverged")
         return self.policy.act(observation)
 
     def taken(self, action):
@@ -56,8 +60,10 @@ class Controller:
         return f"{name}[{part}]" + (f", {age} frames ago" if age else "")
 
 
-def phase(contract, steps):
-    """Returns sine and cosine of the gait's phase after so many control steps."""
+def phase(contract, steps, command):
+    """Returns sine and cosine of the gait's phase after so many control steps; zeros while the command says: stand."""
+    if numpy.linalg.norm(command) < contract.gait_rests_below:
+        return numpy.zeros(2)
     angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
     return numpy.array([math.sin(angle), math.cos(angle)])
 
@@ -76,6 +82,6 @@ _TERMS = {
     "joint_pos_rel": lambda self, robot, _: robot.angles_rad - self.contract.joints.default_rad,
     "joint_vel_rel": lambda _, robot, __: robot.rates_radps,
     "last_action": lambda self, _, __: self.action,
-    "gait_phase": lambda self, _, __: phase(self.contract, self.steps),
+    "gait_phase": lambda self, _, command: phase(self.contract, self.steps, command),
     "height_scan": lambda self, robot, _: height_scan(self.contract, robot),
 }

@@ -1,10 +1,13 @@
-"""How well commands are followed: mean errors over windows of one second."""
+"""How well commands are followed: mean errors over windows of one second, and how still a robot stands."""
 
 import numpy
 
 # Time after a change of command or a push that does not count, and length of a window (s).
 SETTLING_S = 1.0
 WINDOW_S = 1.0
+# Norm of a command (m/s, m/s, rad/s) below which it says: stand, and the wait before the robot must stand still (s).
+STANDING_COMMAND = 0.1
+STILL_AFTER_S = 2.0
 
 
 def windows(events, steps, control_step_s):
@@ -32,3 +35,32 @@ def window_errors(velocities, commands, events, control_step_s):
         off = numpy.mean(velocities[begin:end], axis=0) - numpy.mean(commands[begin:end], axis=0)
         errors.append([numpy.hypot(off[0], off[1]), abs(off[2])])
     return numpy.array(errors).reshape(-1, 2)
+
+
+def rests(commands, events, control_step_s):
+    """Returns [begin, end) of the control steps in which a robot must stand still: from two seconds after an event on, while the
+    command says: stand.
+    """
+    stands = numpy.linalg.norm(commands, axis=1) < STANDING_COMMAND
+    starts, found = sorted({0, *events}), []
+    for begin, end in zip(starts, [*starts[1:], len(stands)]):
+        begin += round(STILL_AFTER_S / control_step_s)
+        # A heading's yaw rate changes without an event.
+        edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[False], stands[begin:end], [False]])))
+        found += [(begin + int(first), begin + int(last)) for first, last in edges.reshape(-1, 2)]
+    return found
+
+
+def still(places_m, rates_radps, standing, spans):
+    """Returns what each rest adds: largest distance from its first place (m), control steps, sum of the hinges' mean squared rates,
+    and feet that were lifted, `[rest, 4]`.
+
+    `places_m` (x and y), `rates_radps` (hinges) and `standing` (feet, true or false) have one row per control step.
+    """
+    squares, lifted = numpy.mean(numpy.square(rates_radps), axis=1), numpy.zeros(len(standing))
+    lifted[1:] = (standing[:-1] & ~standing[1:]).sum(axis=1)
+    rows = []
+    for begin, end in spans:
+        drifts = numpy.linalg.norm(places_m[begin:end] - places_m[begin], axis=1)
+        rows.append([drifts.max(), end - begin, squares[begin:end].sum(), lifted[begin:end].sum()])
+    return numpy.array(rows).reshape(-1, 4)

@@ -14,6 +14,8 @@ _DIVERGED = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL,
 _SKY_M = 1e3
 # Distance from the edge of a given ground at which an episode ends, as in training (m).
 _EDGE_M = 1.0
+# Vertical force above which a foot stands, as in training (N).
+_STANDING_N = 1.0
 
 
 class Robot:
@@ -29,7 +31,9 @@ class Robot:
         except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
             raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
         self.notes = []
-        _replace_servos(spec, path, contract)
+        _replace_servos(spec, path, contract, self.notes)
+        # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
+        spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
         _replace_floor(spec, ground, self.notes)
         self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
         try:
@@ -45,6 +49,8 @@ class Robot:
         root = model.body_jntadr[self.base]
         if root < 0 or model.jnt_type[root] != mujoco.mjtJoint.mjJNT_FREE:
             raise TransferError(f"the body `{contract.base_body}` of the model `{path}` has no free joint")
+        # Bodies without joints of their own move with the foot.
+        self._feet = [model.body_weldid[model.body(name).id] for name in contract.feet_bodies]
         self._root_q, self._root_v = model.jnt_qposadr[root], model.jnt_dofadr[root]
 
         def places(names):
@@ -148,6 +154,27 @@ class Robot:
         return self.data.qvel[self._v]
 
     @property
+    def all_rates_radps(self):
+        """Rates of all hinges, in the order of the file."""
+        return self.data.qvel[self._all_v].copy()
+
+    def feet_stand(self):
+        """Returns for each foot of the contract whether the ground carries it."""
+        up_n = numpy.zeros(len(self._feet))
+        wrench = numpy.empty(6)
+        for index, contact in enumerate(self.data.contact):
+            bodies = self.model.body_weldid[self.model.geom_bodyid[contact.geom]]
+            feet = [foot for foot, body in enumerate(self._feet) if body in bodies]
+            if not feet:
+                continue
+            mujoco.mj_contactForce(self.model, self.data, index, wrench)
+            # The force of the first geometry's body on the second one's, in the frame of the contact.
+            upwards_n = contact.frame.reshape(3, 3).T[2] @ wrench[:3]
+            for foot in feet:
+                up_n[foot] += upwards_n if bodies[1] == self._feet[foot] else -upwards_n
+        return up_n > _STANDING_N
+
+    @property
     def heading_rad(self):
         """Yaw of the base's x axis, projected to the ground."""
         forward = self.rotation[:, 0]
@@ -219,13 +246,24 @@ def substeps(control_step_s, file_s, wanted_s=None):
     return count, control_step_s / count
 
 
-def _replace_servos(spec, path, contract):
+def _plain_actuator():
+    """Returns the attributes of an actuator of an empty model."""
+    actuator = mujoco.MjSpec().add_actuator()
+    own = {"classname", "compiler", "id", "info", "name", "plugin", "signature", "target", "userdata"}
+    keys = [key for key in dir(actuator) if not key.startswith("_") and key not in own]
+    values = {key: getattr(actuator, key) for key in keys}
+    return {key: value for key, value in values.items() if not callable(value)}
+
+
+def _replace_servos(spec, path, contract, notes):
     # Keyframes hold controls of the file's actuators, and such sensors their forces.
     actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
     for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
         spec.delete(item)
-    if spec.body(contract.base_body) is None:
-        raise TransferError(f"the model `{path}` has no body `{contract.base_body}`, the base of the contract")
+    for name, what in [(contract.base_body, "the base"), *((foot, "a foot") for foot in contract.feet_bodies)]:
+        if spec.body(name) is None:
+            raise TransferError(f"the model `{path}` has no body `{name}`, {what} of the contract")
+    plain = _plain_actuator()
     for joints in (contract.joints, contract.held):
         for index, name in enumerate(joints.names):
             joint = spec.joint(name)
@@ -233,16 +271,20 @@ def _replace_servos(spec, path, contract):
                 known = ", ".join(known.name for known in spec.joints if known.name)
                 raise TransferError(f"the model `{path}` has no joint `{name}` of the contract; it has: {known}")
             joint.armature = joints.armature_kgm2[index]
+            # The contract's effort is the only limit of torque.
+            if joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE and 0.0 < joint.actfrcrange[1] < joints.effort_nm[index]:
+                limits = f"{joint.actfrcrange[1]:g} N·m, the contract to {joints.effort_nm[index]:g} N·m, which holds"
+                notes.append(f"the file limits the torque of the joint `{name}` to {limits}")
+            joint.actfrclimited = mujoco.mjtLimited.mjLIMITED_FALSE
             kp, kd, effort_nm = joints.kp[index], joints.kd[index], joints.effort_nm[index]
-            servo = spec.add_actuator(
-                name=name,
-                target=name,
-                trntype=mujoco.mjtTrn.mjTRN_JOINT,
-                gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-                biastype=mujoco.mjtBias.mjBIAS_AFFINE,
-                forcelimited=True,
-                forcerange=[-effort_nm, effort_nm],
-            )
+            servo = spec.add_actuator(name=name, target=name)
+            # An actuator begins with the file's defaults: gear, limits of control, delays.
+            for key, value in plain.items():
+                setattr(servo, key, value)
+            servo.trntype = mujoco.mjtTrn.mjTRN_JOINT
+            servo.gaintype, servo.biastype = mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_AFFINE
+            servo.ctrllimited = servo.actlimited = mujoco.mjtLimited.mjLIMITED_FALSE
+            servo.forcelimited, servo.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-effort_nm, effort_nm]
             servo.gainprm[0], servo.biasprm[1], servo.biasprm[2] = kp, -kp, -kd
 
 

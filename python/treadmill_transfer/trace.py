@@ -11,10 +11,10 @@ import numpy
 
 from .contract import TransferError
 
-# Observation and action differ by rounding only: 1e-6. Torques (N·m) and states (m, rad, and rates times the control step) differ
-# because each simulator has its own contacts. Largest of 1,000 steps of a G1 that walks, with the file of its training: 20.2 and
-# 0.185, where a foot lands.
-TOLERANCES = {"observation": 1e-4, "action": 1e-4, "torque": 30.0, "state": 0.3}
+# Observation and action differ by rounding only: 1e-6. Torques (as shares of each joint's effort) and states (m, rad, and rates
+# times the control step) differ because each simulator has its own contacts. Largest of 1,000 steps of a G1 that walks, with the
+# file of its training: 0.18 and 0.153, where a foot lands.
+TOLERANCES = {"observation": 1e-4, "action": 1e-4, "torque": 0.3, "state": 0.3}
 KEYS = ("observation", "action", "episode", "command", "qpos", "qvel", "torque")
 _ROOT_Q = ["base x", "base y", "base z", *(f"base quaternion {part}" for part in "wxyz")]
 _ROOT_V = [f"base {kind} {axis}" for kind in ("velocity", "angular velocity") for axis in "xyz"]
@@ -84,7 +84,7 @@ def compare(robot, controller, lines, tolerances):
         taken = contract.action_limit * numpy.clip(line["action"], -1.0, 1.0)
         check("action", controller.act(seen), taken, names.__getitem__)
         robot.step(controller.taken(taken))
-        check("torque", robot.torques_nm(), line["torque"][robot.policy_hinges], names.__getitem__)
+        check("torque", robot.torques_nm(), line["torque"][robot.policy_hinges], names.__getitem__, 1.0 / contract.joints.effort_nm)
         following = lines[index + 1] if index + 1 < len(lines) else None
         if following and following["episode"] == episode:
             position, velocity = robot.state()

@@ -3,7 +3,7 @@
 
 use std::net::SocketAddr;
 
-use treadmill_bus::Credentials;
+use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
 use treadmill_humanoid::worlds_per_pass;
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
@@ -52,13 +52,18 @@ pub fn print_start(
         }
     }
     say(&format!("  listening {}", endpoints.join(", ")));
-    let tls = credentials.map(tls_flag).unwrap_or_default();
+    let tls = credentials.map(|credentials| tls_flag(credentials, Role::Observer)).unwrap_or_default();
     say(&format!("  watch     treadmill status --watch {root}{tls}"));
     if !config.is_external() {
         say(&format!(
             "            treadmill watch --live {root}{tls}  (the humanoid in a browser; without --live a replay)"
         ));
         say(&format!("  film      treadmill eval {root} --episodes 1 --film walk.gif, also while it trains"));
+    }
+    if credentials
+        .is_some_and(|of_learner| [Role::Actor, Role::Observer].iter().any(|role| !has_keys(of_learner, *role)))
+    {
+        say("  DIR       the folder of that machine's own keys, made by `treadmill certs`");
     }
     if let Some(address) = page {
         say(&format!("  metrics   http://{address}/metrics"));
@@ -102,15 +107,37 @@ fn connect_flags(endpoint: &str, credentials: Option<&Credentials>) -> String {
     let host = treadmill_runtime::machine::host_name();
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
-        Some(credentials) => dialled + &tls_flag(credentials),
+        Some(credentials) => dialled + &tls_flag(credentials, Role::Actor),
         None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
         None => dialled,
     }
 }
 
-/// Returns the flag that names the certificates, after a space.
-fn tls_flag(credentials: &Credentials) -> String {
-    format!(" --tls {}", quoted(&credentials.folder.display().to_string()))
+/// Returns the flag that names the certificates of a role, after a space. A folder that was copied may have only the
+/// learner's.
+fn tls_flag(credentials: &Credentials, role: Role) -> String {
+    match has_keys(credentials, role) {
+        true => format!(" --tls {}", quoted(&credentials.folder.display().to_string())),
+        false => " --tls DIR".to_string(),
+    }
+}
+
+fn has_keys(credentials: &Credentials, role: Role) -> bool {
+    Credentials { role, ..credentials.clone() }.missing().is_none()
+}
+
+/// Prints the endpoints of the last start, one in a line of `before`, that this one does not have, if other processes may
+/// still look for the run there: all of a `learner`, or those beyond this machine.
+pub fn print_lost_endpoints(before: &str, now: &[String], is_learner: bool) {
+    let is_free = |endpoint: &str| !is_learner && endpoint.contains("/127.0.0.1:");
+    let lost = before.lines().filter(|endpoint| !now.iter().any(|now| now == endpoint) && !is_free(endpoint));
+    let lost: Vec<String> = lost.map(|endpoint| format!("--listen {endpoint}")).collect();
+    if !lost.is_empty() {
+        say_error(&format!(
+            "the run listened elsewhere before, and actors look for it there; to go on so: {}",
+            lost.join(" ")
+        ));
+    }
 }
 
 /// Prints that a run has all its steps; `resumed_by` resumes it.

@@ -57,8 +57,13 @@ fn begin_built_in(
     mut config: Config,
 ) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
-    let text = model::completed(&config, any.model.as_deref())?;
-    let environment = model::environment(launcher.tasks, &config, &text, any.model.as_deref())?;
+    let file = any.model.as_deref();
+    let mut text = model::completed(&config, file)?;
+    let init_from = InitFrom::read(new, any)?;
+    if let Some(from) = &init_from {
+        text = from.in_its_order(&text, file)?.into();
+    }
+    let environment = model::environment(launcher.tasks, &config, &text, file)?;
     let networks = model::networks(&config, &environment)?;
     settings::choose(&mut config.ppo, &networks);
     if launcher.command == RunCommand::Train {
@@ -66,7 +71,6 @@ fn begin_built_in(
     }
     let fresh = TrainingState::fresh("", &config, &text, networks, seeds::unique());
     let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
-    let init_from = InitFrom::read(new, any)?;
     let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();

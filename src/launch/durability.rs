@@ -115,7 +115,7 @@ impl LearnerRun<'_> {
             prepared.setup.folder.set_store(&store.to_string())?;
         }
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
-        startup::write_files(&start)?;
+        startup::write_files(self.launcher, &start)?;
         Ok(start)
     }
 
@@ -197,7 +197,7 @@ impl LearnerRun<'_> {
         let lock = RunLock::take(&folder)?;
         let mut start = resumption::go_on(self.launcher, (folder, lock), state, self.new, self.any, self.changes)?;
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
-        startup::write_files(&start)?;
+        startup::write_files(self.launcher, &start)?;
         Ok(start)
     }
 }

@@ -1,6 +1,7 @@
 //! Hosts a learner in this process; for `train`, also starts actor processes.
 
 use std::{
+    fs,
     net::SocketAddr,
     sync::{Arc, OnceLock, atomic::AtomicU64},
     time::Duration,
@@ -27,7 +28,7 @@ use super::{
     output::say,
     prepared::{self, FirstState, Prepared, RunCommand, RunSetup, Start},
     restart::restart,
-    router_session,
+    resume_line, router_session,
     run_args::AnyRunArgs,
     signals,
     slow_step::SlowStepNotice,
@@ -94,7 +95,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
 
 /// Reports a run that has all its steps.
 pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOptions<'_>) {
-    let resumed_by = prepared::resume_command(options.command.name(), folder, options.any.store.as_deref());
+    let resumed_by = resume_line::of_this_process(options.command.name(), folder, options.any.store.as_deref());
     banner::print_finished(&state, &resumed_by);
     if options.any.json {
         say(&as_json(&TrainingSummary::finished(state)));
@@ -168,6 +169,7 @@ impl<'a> Host<'a> {
     ) -> anyhow::Result<()> {
         let command = self.options.command.name();
         let folder = prepared.setup.folder.clone();
+        let before = fs::read_to_string(folder.endpoint()).unwrap_or_default();
         let text = self.endpoints.join("\n") + "\n";
         atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
         lock.set_endpoint(&self.endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
@@ -175,6 +177,7 @@ impl<'a> Host<'a> {
         let (credentials, actors) =
             (self.options.bus.credentials.as_ref(), self.options.actor_processes(&prepared.setup.config));
         banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);
+        banner::print_lost_endpoints(&before, &self.endpoints, actors.is_none());
         // Stays open during training, because actors that join later register their task too.
         let Prepared { mut setup, state } = prepared;
         let known = wait_for_task(&self.bus, &mut setup, state, &self.shutdown, &self.heartbeat).await?;

@@ -31,6 +31,7 @@ pub mod output;
 pub(crate) mod prepared;
 pub(crate) mod processor;
 pub(crate) mod restart;
+pub mod resume_line;
 pub(crate) mod resumption;
 pub(crate) mod router_session;
 pub(crate) mod run_args;

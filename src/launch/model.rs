@@ -73,6 +73,11 @@ pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
     }
 }
 
+/// Returns the text of a model file with hinges and motors in the order of the model that a policy was trained with.
+pub fn in_order_of(text: &str, trained_with: &str, file: &Path) -> Result<String, Usage> {
+    mjcf::in_order_of(text, trained_with).map_err(|why| in_file(Some(file), &why))
+}
+
 /// Builds the environment of a model text, which was read from `file` if given.
 pub fn environment(
     tasks: &TaskRegistry,

@@ -4,7 +4,10 @@
 
 use std::{
     io::{self, IsTerminal, Write},
-    sync::{Mutex, OnceLock},
+    sync::{
+        Mutex, OnceLock,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 /// Most bytes of the log that are buffered.
@@ -12,6 +15,9 @@ const HELD_BYTES_MAX: usize = 16 << 10;
 
 /// Log since buffering began; `None` while the log is written directly.
 static HELD: Mutex<Option<Vec<u8>>> = Mutex::new(None);
+
+/// Whether the terminal was closed, so that what is printed is lost.
+static IS_TERMINAL_GONE: AtomicBool = AtomicBool::new(false);
 
 /// First error of standard output other than a reader that has gone away.
 static LOST: OnceLock<io::Error> = OnceLock::new();
@@ -35,7 +41,7 @@ pub fn say_result(result: &serde_json::Value, json: bool) {
 /// Prints a line on standard output. Returns false if it cannot be written.
 pub fn say_to_reader(line: &str) -> bool {
     let Err(why) = writeln!(io::stdout().lock(), "{line}") else { return true };
-    if why.kind() != io::ErrorKind::BrokenPipe {
+    if why.kind() != io::ErrorKind::BrokenPipe && !IS_TERMINAL_GONE.load(Ordering::Relaxed) {
         let _ = LOST.set(why);
     }
     false
@@ -47,6 +53,11 @@ pub fn say_to_reader(line: &str) -> bool {
 /// The first one.
 pub fn check_written() -> anyhow::Result<()> {
     LOST.get().map_or(Ok(()), |why| Err(anyhow::anyhow!("standard output cannot be written: {why}")))
+}
+
+/// Notes that the terminal was closed: what cannot be printed any more is no error.
+pub fn terminal_is_gone() {
+    IS_TERMINAL_GONE.store(true, Ordering::Relaxed);
 }
 
 /// Prints a line on standard error.

@@ -1,6 +1,6 @@
 //! Run that is ready to begin, and the checks that new and resumed runs share.
 
-use std::{fs, path::PathBuf};
+use std::fs;
 
 use treadmill_config::{Config, LearnerMode};
 use treadmill_humanoid::TaskRegistry;
@@ -8,7 +8,7 @@ use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::settings;
 use treadmill_proto::Task;
-use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds, words};
+use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{exit_code::Usage, run_args::AnyRunArgs, warm_start::InitFrom};
 
@@ -90,7 +90,7 @@ pub struct RunSetup {
 impl RunSetup {
     /// Returns the command that resumes this run.
     pub fn resume_command(&self, command: &str) -> String {
-        resume_command(command, &self.folder, self.store.as_deref())
+        crate::launch::resume_line::of_this_process(command, &self.folder, self.store.as_deref())
     }
 
     /// Sets the external task of a new run, and returns its first state, with the policy of `init_from`.
@@ -109,24 +109,6 @@ impl RunSetup {
     }
 }
 
-/// Returns the command that resumes the run of a folder, or of a store.
-pub fn resume_command(command: &str, folder: &RunFolder, store: Option<&str>) -> String {
-    match store {
-        Some(url) => format!("treadmill {command} --store {} --resume-or-start", words::quoted(url)),
-        None => format!("treadmill {command} --resume {}", words::quoted(&folder.root().display().to_string())),
-    }
-}
-
-/// Returns the command that resumes the run of a folder, by the files there.
-pub fn resume_command_of(folder: &RunFolder) -> String {
-    let text = |path: PathBuf| fs::read_to_string(path).unwrap_or_default();
-    let config: toml::Table = text(folder.config()).parse().unwrap_or_default();
-    let task = config.get("env").and_then(|env| env.get("task")).and_then(toml::Value::as_str);
-    let command = if task == Some("external") { "learner" } else { "train" };
-    let store = text(folder.store());
-    resume_command(command, folder, Some(store.trim()).filter(|url| !url.is_empty()))
-}
-
 /// Refuses the folder of a run whose state is in a store, where a checkpoint in the folder is wanted.
 pub fn check_not_stored(folder: &RunFolder) -> Result<(), Usage> {
     let is_stored = fs::read_to_string(folder.store()).is_ok_and(|url| !url.trim().is_empty());
@@ -134,7 +116,7 @@ pub fn check_not_stored(folder: &RunFolder) -> Result<(), Usage> {
         true => Err(Usage(format!(
             "the state of the run in `{}` is in a store; continue it with `{}`",
             folder.root().display(),
-            resume_command_of(folder)
+            crate::launch::resume_line::of_folder(folder)
         ))),
         false => Ok(()),
     }

@@ -11,6 +11,7 @@ use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::Run
 use crate::launch::{
     exit_code::Usage,
     model,
+    output::say,
     prepared::{self, FirstState, Launcher, Prepared, RunSetup, Start},
     run_args::{AnyRunArgs, NewRunArgs},
     slow_step::SlowStepNotice,
@@ -35,10 +36,19 @@ pub fn resume(
     // With --resume-or-start, the flag chooses the checkpoint to begin from.
     let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(CheckpointChoice::Latest);
     let mut state = checkpoint::load(&folder, which)?.state;
-    if let Ok(best) = checkpoint::load(&folder, CheckpointChoice::Best) {
+    let updates = state.counters.updates;
+    if let Ok(best) = checkpoint::load(&folder, CheckpointChoice::Best)
+        && best.state.counters.updates <= updates
+    {
         state.adopt_best(&best.state);
     }
-    go_on(launcher, (folder, lock), state, new, any, changes)
+    let start = go_on(launcher, (folder, lock), state, new, any, changes)?;
+    if let Start::Ready(prepared, _) = &start
+        && let Some(aside) = checkpoint::set_aside(&prepared.setup.folder, updates)?
+    {
+        say(&format!("what the run saved after update {updates} is kept in {}", aside.display()));
+    }
+    Ok(start)
 }
 
 /// Resumes a run from a state that was read from its store; `folder` is for the logs of this machine.

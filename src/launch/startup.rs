@@ -8,13 +8,13 @@ use treadmill_config::Config;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::checkpoint;
 use treadmill_proto::WIRE_VERSION;
-use treadmill_runtime::{atomic_file, machine, run_folder::RunFolder, words};
+use treadmill_runtime::{atomic_file, machine, program, run_folder::RunFolder, words};
 
 use crate::launch::{
     begin,
     exit_code::Usage,
     prepared::{Launcher, Prepared, RunSetup, Start},
-    resumption,
+    resume_line, resumption,
     run_args::{AnyRunArgs, NewRunArgs},
 };
 
@@ -38,7 +38,7 @@ pub fn prepare(
         Some(run) => resumption::resume(launcher, &run, new, any, changes)?,
         None => begin::begin(launcher, new, any, changes)?,
     };
-    write_files(&start)?;
+    write_files(launcher, &start)?;
     Ok(start)
 }
 
@@ -46,20 +46,20 @@ pub fn prepare(
 ///
 /// # Errors
 /// If its folder cannot be written; a new one is removed then.
-pub fn write_files(start: &Start) -> anyhow::Result<()> {
+pub fn write_files(launcher: Launcher<'_>, start: &Start) -> anyhow::Result<()> {
     let Start::Ready(prepared, _) = start else { return Ok(()) };
     let stale = prepared.setup.folder.remove_stale_files()?;
     if stale > 0 {
         tracing::info!(stale, "removed temporary files that a killed process left");
     }
-    write_run_files(prepared)
+    write_run_files(launcher, prepared)
         .inspect_err(|_| prepared.setup.folder.discard())
         .with_context(|| format!("cannot write to {}", prepared.setup.folder.root().display()))
 }
 
-fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
+fn write_run_files(launcher: Launcher<'_>, prepared: &Prepared) -> std::io::Result<()> {
     use std::io::Write;
-    let Prepared { setup: RunSetup { config, folder, .. }, state } = prepared;
+    let Prepared { setup: RunSetup { config, folder, store, .. }, state } = prepared;
     // Atomically: on a full disk, the files of the previous start remain.
     let write = |path: PathBuf, text: &str| atomic_file::write(&path, text.as_bytes());
     // The saved configuration, whose goal may be beyond that of this start.
@@ -69,6 +69,9 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     if let Some(text) = state.map(|state| &state.model_xml).filter(|text| !text.is_empty()) {
         write(folder.root().join("model.xml"), text)?;
     }
+    let Launcher { command, .. } = launcher;
+    let resumed_by = resume_line::of_this_process(command.name(), folder, store.as_deref());
+    write(folder.resume(), &(resumed_by + "\n"))?;
     let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;
     writeln!(commands, "{}", command_line())?;
     let versions: serde_json::Map<_, _> = facts().into_iter().map(|(name, value)| (name.to_string(), value)).collect();
@@ -83,7 +86,7 @@ pub fn command_line() -> String {
 /// Returns facts about this program and this machine.
 fn facts() -> [(&'static str, serde_json::Value); 8] {
     [
-        ("treadmill", env!("CARGO_PKG_VERSION").into()),
+        ("treadmill", program::version().into()),
         ("checkpoint_format", checkpoint::encoding::FORMAT.into()),
         ("wire_version", WIRE_VERSION.into()),
         ("physics_version", PHYSICS_VERSION.into()),

@@ -1,19 +1,26 @@
 //! First state of a run that begins with another one's policy, or branches off from another run.
 
+use std::path::Path;
+
 use treadmill_config::Config;
 use treadmill_experience::ledger::Ledger;
-use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_humanoid::{PHYSICS_VERSION, mjcf};
 use treadmill_learner::{
     checkpoint::{CheckpointChoice, TrainingState},
     intake::FragmentCounts,
 };
-use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
+use treadmill_policy::{
+    NetworkShape,
+    exported::{ExportedPolicy, ReturnFacts},
+    normaliser::RunningMoments,
+};
 use treadmill_ppo::TrainedPolicy;
 use treadmill_runtime::{numbers::thousands, seeds};
 
 use crate::{
     launch::{
         exit_code::Usage,
+        model,
         run_args::{AnyRunArgs, NewRunArgs},
     },
     shared::{
@@ -41,6 +48,18 @@ impl InitFrom {
         Ok(Some(Self { from, saved }))
     }
 
+    /// Returns a model text, which was read from `file` if given, with hinges and motors in the order of the policy's model.
+    ///
+    /// # Errors
+    /// If they have other names: a policy means nothing to another body.
+    pub fn in_its_order(&self, text: &str, file: Option<&Path>) -> Result<String, Usage> {
+        let Self { from, saved } = self;
+        mjcf::in_order_of(text, &saved.policy.model_xml).map_err(|why| {
+            let Usage(why) = model::in_file(file, &why);
+            Usage(format!("`--init-from {from}`: {why}"))
+        })
+    }
+
     /// Returns why a run with networks of this shape cannot begin with it, if so.
     pub fn objection(&self, ours: &NetworkShape) -> Option<String> {
         let Self { from, saved: SavedPolicy { policy: ExportedPolicy { shape: theirs, .. }, .. } } = self;
@@ -61,13 +80,15 @@ impl InitFrom {
         if let Some(why) = self.objection(state.shape()) {
             return Err(Usage(why).into());
         }
-        let Self { from, saved: SavedPolicy { policy, origin, return_moments, .. } } = self;
+        let Self { from, saved: SavedPolicy { policy, origin, .. } } = self;
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
-        let (parameters, value_moments) = (policy.parameters.clone(), return_moments.clone());
+        let (parameters, value_moments) =
+            (policy.parameters.clone(), policy.returns.as_ref().map(ReturnFacts::moments));
         let trained = TrainedPolicy { parameters, observation_moments, value_moments };
-        state.ppo.begin_with(trained).map_err(|distance| {
+        let config = state.config().map_err(anyhow::Error::msg)?;
+        state.ppo.begin_with(trained, &config.ppo).map_err(|distance| {
             Usage(format!(
                 "`--init-from {}`: its networks do not act mirrored in mirrored states (they are {:.0} % away from such \
                  ones), and those of this run must; add --set ppo.symmetry=off",

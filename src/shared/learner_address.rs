@@ -10,7 +10,7 @@ use treadmill_runtime::{holder::Holder, run_folder::RunFolder, run_lock::holder,
 
 use crate::{
     diagnosis::Silence,
-    launch::{async_runtime, exit_code::Usage, prepared::resume_command_of, slow_step::SlowStepNotice},
+    launch::{async_runtime, exit_code::Usage, resume_line, slow_step::SlowStepNotice},
     shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
 };
 
@@ -60,7 +60,7 @@ impl ReachArgs {
     pub fn idleness(&self) -> Option<[String; 2]> {
         let folder = self.idle_folder()?;
         let root = quoted(&folder.root().display().to_string());
-        Some([format!("no process trains `{root}` now"), format!("go on with: {}", resume_command_of(&folder))])
+        Some([format!("no process trains `{root}` now"), format!("go on with: {}", resume_line::of_folder(&folder))])
     }
 
     /// Returns the process that trains the run whose folder was given.

@@ -6,10 +6,7 @@ use anyhow::Context;
 use treadmill_config::{ChosenTask, Config, ConfigSource};
 use treadmill_humanoid::{Environment, Model, TaskRegistry};
 use treadmill_learner::checkpoint::{self, CheckpointChoice, Loaded, TrainingState, encoding};
-use treadmill_policy::{
-    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
-    normaliser::RunningMoments,
-};
+use treadmill_policy::exported::{ActionFacts, ExportedPolicy, ObservationFacts, ReturnFacts};
 use treadmill_ppo::TrainedPolicy;
 use treadmill_proto::Task;
 use treadmill_runtime::numbers::thousands;
@@ -25,8 +22,6 @@ pub struct SavedPolicy {
     pub config: Config,
     /// Its checkpoint; `None` for a file that `export` wrote.
     pub origin: Option<Origin>,
-    /// Statistics of returns, by which its critic is scaled; `None` for a file that `export` wrote.
-    pub return_moments: Option<RunningMoments>,
 }
 
 /// Checkpoint that a policy comes from.
@@ -72,7 +67,7 @@ pub fn load(run: &str, which: Option<CheckpointChoice>) -> anyhow::Result<SavedP
         let policy = ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from);
         policy.and_then(|policy| {
             let config = configuration(&policy)?;
-            Ok(SavedPolicy { policy, config, origin: None, return_moments: None })
+            Ok(SavedPolicy { policy, config, origin: None })
         })
     };
     loaded.with_context(|| format!("`{run}` is not a usable policy"))
@@ -124,10 +119,9 @@ pub fn environment(
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
     let trained = state.ppo.trained_policy();
-    let return_moments = trained.value_moments.clone();
     let policy = exported(state, trained)?;
     let config = configuration(&policy)?;
-    Ok(SavedPolicy { policy, config, origin, return_moments })
+    Ok(SavedPolicy { policy, config, origin })
 }
 
 /// Reads the settings that a policy carries.
@@ -162,6 +156,7 @@ fn exported(state: &TrainingState, trained: TrainedPolicy) -> anyhow::Result<Exp
         mean,
         variance,
         action,
+        returns: trained.value_moments.as_ref().map(ReturnFacts::from_moments),
         control_step_s,
         settings: config.episodes_toml(),
         model_xml: state.model_xml.clone(),

@@ -23,14 +23,37 @@ fn length(characters: u16) -> NonZeroU16 {
 
 /// Opens a pseudo-terminal of 80 × 24 characters. Returns the test's end and the program's end.
 fn pseudo_terminal() -> [OwnedFd; 2] {
-    let (mut outer, mut inner) = (-1, -1);
     let size = libc::winsize { ws_row: 24, ws_col: 80, ws_xpixel: 0, ws_ypixel: 0 };
-    let (no_name, usual) = (std::ptr::null_mut(), std::ptr::null());
-    // SAFETY: the call writes two numbers and reads a structure; both returned descriptors are open and owned here.
+    // Not for other processes that start meanwhile: they would keep the terminal open.
+    let flags = libc::O_RDWR | libc::O_NOCTTY | libc::O_CLOEXEC;
+    let mut name = [0; 128];
+    // SAFETY: the calls read and write structures of this function; both descriptors are open and owned here.
     unsafe {
-        assert_eq!(libc::openpty(&mut outer, &mut inner, no_name, usual, &size), 0);
-        [outer, inner].map(|descriptor| OwnedFd::from_raw_fd(descriptor))
+        let outer = OwnedFd::from_raw_fd(libc::posix_openpt(flags));
+        let fd = outer.as_raw_fd();
+        assert!(libc::grantpt(fd) == 0 && libc::unlockpt(fd) == 0);
+        assert_eq!(libc::ptsname_r(fd, name.as_mut_ptr(), name.len()), 0);
+        let inner = OwnedFd::from_raw_fd(libc::open(name.as_ptr(), flags));
+        assert_eq!(libc::ioctl(inner.as_raw_fd(), libc::TIOCSWINSZ, &raw const size), 0);
+        [outer, inner]
     }
+}
+
+/// Starts a program on a new terminal, whose other end is returned.
+fn spawn_on_terminal(mut command: Command) -> (File, Child) {
+    let [outer, inner] = pseudo_terminal();
+    command.env("TERM", "xterm-256color");
+    command.stdin(inner.try_clone().unwrap()).stdout(inner.try_clone().unwrap()).stderr(inner);
+    // SAFETY: two system calls that take numbers; the second makes standard input the controlling terminal.
+    unsafe {
+        command.pre_exec(|| match libc::setsid() < 0 || libc::ioctl(0, libc::TIOCSCTTY, 0) < 0 {
+            true => Err(std::io::Error::last_os_error()),
+            false => Ok(()),
+        });
+    }
+    let child = command.spawn().expect("the binary starts");
+    // The command's copies of the descriptors close here: they would keep the terminal open.
+    (File::from(outer), child)
 }
 
 /// Terminal with the program on it.
@@ -48,21 +71,8 @@ impl Terminal {
         Self::start_this(command)
     }
 
-    fn start_this(mut command: Command) -> Self {
-        let [outer, inner] = pseudo_terminal();
-        command.env("TERM", "xterm-256color");
-        command.stdin(inner.try_clone().unwrap()).stdout(inner.try_clone().unwrap()).stderr(inner);
-        // SAFETY: two system calls that take numbers; the second makes standard input the controlling terminal.
-        unsafe {
-            command.pre_exec(|| match libc::setsid() < 0 || libc::ioctl(0, libc::TIOCSCTTY, 0) < 0 {
-                true => Err(std::io::Error::last_os_error()),
-                false => Ok(()),
-            });
-        }
-        let child = command.spawn().expect("the binary starts");
-        // The command's copies of the descriptors would keep the terminal open.
-        drop(command);
-        let keyboard = File::from(outer);
+    fn start_this(command: Command) -> Self {
+        let (keyboard, child) = spawn_on_terminal(command);
         let screen = Arc::new(Mutex::new(vt100::Parser::new(length(24), length(80), 0)));
         std::thread::spawn({
             let (mut output, screen) = (keyboard.try_clone().unwrap(), screen.clone());
@@ -141,6 +151,49 @@ impl Drop for Terminal {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+#[test]
+fn a_dashboard_and_a_training_end_with_their_terminal() {
+    let (folder, run) = folders();
+    let training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
+    await_steps(&run, 512);
+    for ignores_hangups in [false, true] {
+        let mut command = treadmill(folder.path());
+        command.args(["status", "run", "--watch"]);
+        if ignores_hangups {
+            // As `nohup` does.
+            // SAFETY: a system call that takes two numbers.
+            unsafe {
+                command.pre_exec(|| {
+                    libc::signal(libc::SIGHUP, libc::SIG_IGN);
+                    Ok(())
+                });
+            }
+        }
+        let (mut keyboard, mut child) = spawn_on_terminal(command);
+        // Once it draws on the other screen, it reads keys.
+        let (mut seen, mut bytes) = (Vec::<u8>::new(), [0; 256]);
+        while !seen.windows(8).any(|part| part == b"\x1b[?1049h") {
+            let count = keyboard.read(&mut bytes).unwrap();
+            seen.extend(&bytes[..count]);
+        }
+        drop(keyboard);
+        await_that("the end of the dashboard", || child.try_wait().unwrap());
+    }
+
+    drop(training);
+    let run = folder.path().join("other");
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--steps", ENDLESS, "--preset", "smoke", "--run-dir", "other", "--no-progress"]);
+    // What it prints until then fits into the terminal's buffer.
+    let (keyboard, mut child) = spawn_on_terminal(command);
+    await_steps(&run, 1024);
+    drop(keyboard);
+    let status = await_that("the end of the training", || child.try_wait().unwrap());
+    assert_eq!(status.code(), Some(0));
+    let resumed = done(folder.path(), &["eval", "other", "--checkpoint", "latest", "--episodes", "1", "--json"]);
+    assert_eq!(last_json(&resumed)["checkpoint_env_steps"], last_step(&run), "saved");
 }
 
 fn train(folder: &Path, args: &[&str]) -> Running {

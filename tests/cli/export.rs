@@ -7,6 +7,7 @@ use std::{
 };
 
 use crate::support::*;
+use rten_tensor::{NdTensor, prelude::*};
 use serde_json::Value;
 
 fn export(folder: &Path, run: &str, file: &Path) -> Vec<u8> {
@@ -177,10 +178,33 @@ fn other_programs_compute_the_same_actions() {
     let output = Command::new(example("play_policy")).arg(&file).stdin(fs::File::open(&observations).unwrap()).output();
     compare(&wanted, &output.unwrap(), 1e-5);
 
+    // A Rust runtime.
+    let of_rten = rten::Model::load_file(&model).unwrap();
+    let play = |row: Vec<f64>| -> Vec<f32> {
+        let row: Vec<f32> = row.into_iter().map(|number| number as f32).collect();
+        let batch = NdTensor::from_data([1, row.len()], row);
+        let found = of_rten.run_one(rten::Value::from(batch).into(), None).unwrap();
+        NdTensor::<f32, 2>::try_from(found).unwrap().to_vec()
+    };
+    let steps = json_lines(&trace);
+    for (step, wanted) in steps.iter().zip(&wanted) {
+        let found = play(numbers(&step["observation"]));
+        let off =
+            found.iter().zip(wanted).map(|(found, wanted)| (f64::from(*found) - wanted).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-5 && found.len() == wanted.len(), "{off}");
+    }
+    let mut broken = numbers(&steps[0]["observation"]);
+    broken[7] = f64::NAN;
+    assert!(play(broken).iter().all(|action| action.is_nan()), "a broken sensor is seen in every action");
+
     let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/run_onnx.py");
     let played = python.arg(&script).arg(&model).arg(&trace).output().unwrap();
     compare(&wanted, &played, 1e-5);
+    for runtime in ["openvino", "tract"] {
+        let Some(mut python) = python_with(&format!("numpy, onnx, {runtime}")) else { continue };
+        compare(&wanted, &python.arg(&script).arg(&model).arg(&trace).arg(runtime).output().unwrap(), 1e-5);
+    }
 
     // Mirrored observations give mirrored actions.
     let mirror = latest(Path::new(run)).ppo.networks().mirror().unwrap().clone();

@@ -37,9 +37,10 @@ const KNEE: usize = 3;
 const OF_POLICY: usize = 2 * (3 + 3 + 3 + 3 * IDS.len() + 2);
 
 /// Keys of the policy.
-const KEYS: [&str; 5] = [
+const KEYS: [&str; 6] = [
     "velocity.history=2",
     "velocity.gait_period_s=0.7",
+    "velocity.gait_rests=true",
     "velocity.lin_vel_x_mps=[-0.4,0.9]",
     "randomisation.push_mps=[0.1,0.5]",
     "policy.hidden=[32,16]",
@@ -120,6 +121,7 @@ fn check_metadata(model: &[u8]) {
         ("feet_bodies", json!(["left_foot", "right_foot"])),
         ("default_base_height_m", json!(0.75)),
         ("gait_period_s", json!(0.7)),
+        ("gait_rests_below", json!(0.1)),
         ("push_mps", json!([0.1, 0.5])),
         ("push_interval_s", json!([2.0, 5.0])),
     ] {
@@ -148,7 +150,10 @@ fn check_deploy(yaml: &str) {
     assert_eq!(in_line(yaml, "default_joint_pos"), offset);
     assert_eq!(in_line(yaml, "scale")[15], "0.375");
     assert_eq!(in_line(yaml, "lin_vel_x"), ["-0.4", "0.9"]);
-    assert!(yaml.contains("step_dt: 0.02\n") && yaml.contains("    params: {period: 0.7}\n"), "{yaml}");
+    assert!(
+        yaml.contains("step_dt: 0.02\n") && yaml.contains("    params: {period: 0.7, command_threshold: 0.1}\n"),
+        "{yaml}"
+    );
     assert!(yaml.contains("[-0.55, 1.05]"), "targets of the knees: {yaml}");
     assert!(yaml.contains("    history_length: 2\n") && yaml.ends_with("  use_gym_history: true\n"), "{yaml}");
 }

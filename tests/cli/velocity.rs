@@ -95,3 +95,44 @@ fn commands_come_from_a_file_and_every_step_is_traced() {
     let without = run_with(folder, &[&["eval", "--agent", "random", "--commands", "walk.csv"]]);
     assert_refused(&without, 2, &["--commands walk.csv", "no commands"]);
 }
+
+#[test]
+fn commands_that_no_episode_reaches_are_named() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    trained_robot(folder, &run, CARD, &[]);
+    let path = run.to_str().unwrap();
+    fs::write(folder.join("long.csv"), "0,0.5,0,0\n0.1,0.3,0,0\n0.16,0,0,0\n9,0.1,0,0\n").unwrap();
+    let play = |steps: &str| {
+        let args = ["eval", path, "--episodes", "1", "--commands", "long.csv", "--json", "--set", steps];
+        stderr(&run_with(folder, &[&args]))
+    };
+    let warning = "--commands long.csv: 2 commands from time_s 0.16 on are not played, because episodes end at 0.16 s";
+    assert!(play("env.max_episode_steps=8").contains(warning), "{}", play("env.max_episode_steps=8"));
+    assert!(!play("env.max_episode_steps=1000").contains("not played"));
+}
+
+#[test]
+fn a_robot_that_is_to_stand_is_measured_standing() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    trained_robot(folder, &run, CARD, &["velocity.gait_rests=true"]);
+    fs::write(folder.join("stand.csv"), "0,0,0,0\n").unwrap();
+    let args = ["eval", run.to_str().unwrap(), "--episodes", "1", "--commands", "stand.csv", "--set"];
+    let more = ["env.max_episode_steps=150", "--trace", "trace.jsonl", "--json"];
+    let result = last_json(&run_with(folder, &[&args, &more, &NEVER_FALLS]));
+    for field in ["standing_drift_m", "standing_hinge_radps", "standing_lifts_per_s"] {
+        assert!(result[field].as_f64().is_some_and(|number| number >= 0.0), "{field} in {result}");
+    }
+    let lines = json_lines(&folder.join("trace.jsonl"));
+    // By the trace, which lacks the state after the last of the 50 steps that count.
+    let squares = |line: &Value| numbers(&line["qvel"])[6..].iter().map(|rate| rate * rate).sum::<f64>() / 29.0;
+    let sum: f64 = lines[101..].iter().map(squares).sum();
+    let found = result["standing_hinge_radps"].as_f64().unwrap();
+    assert!(found * found * 50.0 > 0.999 * sum && sum > 0.0, "{found} {sum}");
+    // The gait's phase rests: the last two entries that the policy sees.
+    let phase = |line: &Value| numbers(&line["observation"])[9 + 3 * 29..][..2].to_vec();
+    assert!(lines.iter().all(|line| phase(line) == [0.0, 0.0]), "{:?}", phase(&lines[50]));
+    let walking = last_json(&run_with(folder, &[&args[..4], &["--json", "--set", "velocity.standing_share=0"]]));
+    assert_eq!(walking["standing_drift_m"], Value::Null);
+}

@@ -45,6 +45,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         distance_m: 0.0,
         velocity_mean_mps: 0.0,
         cause: EndCause::Terminated,
+        ground_kind: None,
         ground_level: None,
         command_factor: None,
     };

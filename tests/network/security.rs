@@ -161,3 +161,45 @@ fn a_certificate_that_no_other_side_accepts_is_an_error_at_once() {
     assert_refused(&train, 2, &["learner.crt is not a certificate"]);
     assert!(!at("never").exists());
 }
+
+#[test]
+fn printed_commands_start_actors_and_resume_a_learner_with_its_certificates() {
+    let (folder, run) = folders();
+    done(folder.path(), &["certs", "certs"]);
+    // `treadmill` is on the path.
+    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().display().to_string();
+    let shell = |command: &str| {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &format!("exec {command}")]).current_dir(folder.path());
+        shell.env("PATH", format!("{program}:{}", std::env::var("PATH").unwrap()));
+        Running::start(shell)
+    };
+    let after = |line: String, part: &str| line.split_once(part).unwrap().1.to_string();
+    let learner = learner(folder.path(), &run);
+    let actor = shell(&after(learner.wait_for("  actors    "), "start some by: "));
+    let command = after(learner.wait_for("  resume    "), "  resume    ");
+    assert_eq!(fs::read_to_string(run.join("resume.txt")).unwrap().trim(), command);
+    await_steps(&run, 1024);
+    let listened = endpoint(&run);
+    learner.signal(libc::SIGTERM);
+    learner.wait();
+    drop(actor);
+    let before = last_step(&run);
+    let resumed = shell(&command);
+    let actor = shell(&after(resumed.wait_for("  actors    "), "start some by: "));
+    // The system chose the ports.
+    let lost = resumed.wait_for("the run listened elsewhere before");
+    assert!(lost.ends_with(&format!("--listen {listened}")), "{lost}");
+    await_steps(&run, before + 1024);
+    drop((resumed, actor));
+
+    // A folder with the learner's keys alone is not offered to others.
+    for role in ["actor", "observer"] {
+        for kind in ["key", "crt"] {
+            fs::remove_file(folder.path().join(format!("certs/{role}.{kind}"))).unwrap();
+        }
+    }
+    let alone = self::learner(folder.path(), &folder.path().join("alone"));
+    assert!(alone.wait_for("  actors    ").contains("--tls DIR --run alone"));
+    alone.wait_for("  DIR       ");
+}

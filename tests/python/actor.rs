@@ -34,6 +34,7 @@ fn golden() -> serde_json::Value {
         mean,
         variance,
         action: ActionFacts { names: vec!["a".into(), "b".into()], low: vec![-0.4; 2], high: vec![0.4; 2] },
+        returns: None,
         control_step_s: 0.015,
         settings: Config::default().episodes_toml(),
         model_xml: String::new(),

@@ -78,6 +78,8 @@ fn five_updates_and_five_resumed_updates_equal_ten() {
         let (found, _) = resume(folder.path(), &halves, 10, &["--checkpoint", "8"]);
         assert_eq!(found.counters.resumes, 2);
         assert_same(&found, &wanted);
+        let aside = halves.join("checkpoints/abandoned-after-8");
+        assert!(aside.join("latest.bundle").exists() && aside.join("00000010.bundle").exists());
     }
 }
 
@@ -158,6 +160,43 @@ fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
     }
 }
 
+#[test]
+fn a_run_that_returns_to_a_checkpoint_forgets_its_old_future() {
+    let (folder, run) = folders();
+    begin(folder.path(), &run, 10, &["learner.keep_checkpoints=100"]);
+    let checkpoints = run.join("checkpoints");
+    let names = |folder: &Path| -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = entries.filter(|name| name.ends_with(".bundle")).collect();
+        names.sort();
+        names
+    };
+    let before = names(&checkpoints);
+    assert!(before.contains(&"00000008.bundle".to_string()), "{before:?}");
+    // Flags that are refused move nothing.
+    let name = run.to_str().unwrap();
+    let refused = self::run(folder.path(), &["train", "--resume", name, "--checkpoint", "4", "--steps", "1"]);
+    assert_refused(&refused, 2, &["--steps 1"]);
+    assert_eq!(names(&checkpoints), before);
+    let (found, _) = resume(folder.path(), &run, 6, &["--checkpoint", "4"]);
+    assert_eq!(found.counters.updates, 6);
+    let (kept, aside) = (names(&checkpoints), names(&checkpoints.join("abandoned-after-4")));
+    assert!(
+        !kept.contains(&"00000008.bundle".to_string()) && kept.contains(&"00000006.bundle".to_string()),
+        "{kept:?}"
+    );
+    assert!(
+        aside.contains(&"00000008.bundle".to_string()) && aside.contains(&"latest.bundle".to_string()),
+        "{aside:?}"
+    );
+    let gone = self::run(folder.path(), &["eval", name, "--checkpoint", "8", "--episodes", "1"]);
+    assert_refused(&gone, 1, &["there is no checkpoint"]);
+    // Nor does a damaged newest one bring it back.
+    fs::write(checkpoints.join("latest.bundle"), "").unwrap();
+    let eval = self::run(folder.path(), &["eval", name, "--checkpoint", "latest", "--episodes", "1"]);
+    assert!(stderr(&eval).contains("00000006.bundle") && eval.status.success(), "{}", stderr(&eval));
+}
+
 /// Returns the names of the temporary files in a run folder.
 fn temporary_files(run: &Path) -> Vec<String> {
     let folders = [run.to_path_buf(), run.join("checkpoints")];
@@ -224,4 +263,29 @@ fn an_actor_that_does_not_fit_the_saved_state_warns_and_begins_new_episodes() {
     let state = latest(&run);
     assert_eq!(state.counters.updates, 4);
     assert_eq!(state.actor_state.unwrap().envs(), 4);
+}
+
+#[test]
+fn curricula_go_on_where_they_were() {
+    let (folder, run) = folders();
+    let card = "model = 'robot.xml'\nfeet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
+    let ground = ["ground.kinds=['slope']", "ground.start_level=5", "velocity.command_curriculum=true"];
+    // It falls at once, from level to level.
+    trained_robot(folder.path(), &run, card, &ground);
+    let name = run.to_str().unwrap();
+    done(folder.path(), &["train", "--resume", name, "--steps", "16384", "--actors", "1"]);
+    let level = |run: &Path| last_value(run, "rollout/ground_level").unwrap();
+    assert!(level(&run) < 1.5, "{}", level(&run));
+    let steps =
+        |run: &Path| metrics(run).into_iter().filter(|(tag, ..)| tag == "rollout/ground_level").collect::<Vec<_>>();
+    let before = steps(&run).len();
+    done(folder.path(), &["train", "--resume", name, "--steps", "18432", "--actors", "2"]);
+    let after = &steps(&run)[before..];
+    assert!(!after.is_empty() && after.iter().all(|(.., level)| *level < 2.5), "{after:?}");
+    // A fork takes them along.
+    let fork = folder.path().join("fork");
+    let args = ["train", "--fork", name, "--steps", "20480", "--run-dir", fork.to_str().unwrap()];
+    done(folder.path(), &args);
+    let forked = steps(&fork);
+    assert!(!forked.is_empty() && forked.iter().all(|(.., level)| *level < 2.5), "{forked:?}");
 }

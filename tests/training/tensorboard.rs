@@ -22,9 +22,11 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
     let Some(python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
+    let every = ["--set", "learner.checkpoint_every_updates=1", "--set", "learner.keep_checkpoints=100"];
     let train = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run_name];
-    done(folder.path(), &train);
-    done(folder.path(), &["train", "--resume", run_name, "--steps", "4096"]);
+    done(folder.path(), &[&train[..], &every].concat());
+    // It goes on from an earlier checkpoint, so that steps are written twice.
+    done(folder.path(), &["train", "--resume", run_name, "--checkpoint", "2", "--steps", "4096"]);
 
     let points = &read(&python, &run)["points"];
     let mut compared = 0;
@@ -37,6 +39,9 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
         compared += 1;
     }
     assert!(compared > 8 * 30, "eight updates of some thirty tags each, {compared} compared");
+    let written: Vec<u64> =
+        metrics(&run).into_iter().filter(|(tag, ..)| tag == "train/std").map(|(_, step, _)| step).collect();
+    assert_eq!(steps(&points["train/std"]), written, "no step comes twice");
 }
 
 /// Asserts that the table of the configuration has every key of the saved one, changed keys in bold.

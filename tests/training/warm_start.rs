@@ -38,6 +38,7 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     assert_near(&our_policy.parameters, &their_policy.parameters);
     assert_eq!(our_policy.value_moments, their_policy.value_moments);
     assert_eq!(ours.ppo.gradient_steps(), 0);
+    assert_eq!(ours.ppo.learning_rate(), 1e-5, "it begins with small steps");
     assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (0, 0, "warm"));
     let (ours, theirs_moments) = (our_policy.observation_moments, their_policy.observation_moments);
     assert_eq!((ours.count, ours.mean), (theirs_moments.count, theirs_moments.mean));
@@ -45,13 +46,15 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
         assert!((ours - theirs).abs() <= 1e-9 * theirs.abs(), "{ours} {theirs}");
     }
 
-    // A file of `export` has no statistics of returns.
+    // So does a file of `export`.
     done(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
     let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
     let (ours, _) = first_state(folder, "exported", &from);
     let ours = ours.ppo.trained_policy();
     assert_near(&ours.parameters, &their_policy.parameters);
-    assert_eq!(ours.value_moments.unwrap().count, 0.0);
+    let (ours, theirs) = (ours.value_moments.unwrap(), their_policy.value_moments.unwrap());
+    assert_eq!((ours.count, ours.mean), (theirs.count, theirs.mean));
+    assert!((ours.m2[0] / theirs.m2[0] - 1.0).abs() < 1e-12);
 
     let train = |args: &[&str]| run(folder, &[&["train", "--preset", "smoke", "--run-dir", "other"], args].concat());
     let parts = ["--init-from run", "policy.hidden"];
@@ -60,6 +63,50 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     assert_refused(&train(&["--init-from", "run", "--resume", "run"]), 2, &["cannot be used with"]);
     assert_refused(&train(&["--checkpoint", "best"]), 2, &["--resume", "--init-from", "--fork"]);
     assert!(!folder.join("other").exists(), "a refused start leaves no folder");
+}
+
+#[test]
+fn a_policy_meets_its_own_body_whatever_the_order_of_its_file() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    trained(folder, &run_folder);
+    // The built-in humanoid with its legs in the other order.
+    let text = fs::read_to_string(run_folder.join("model.xml")).unwrap();
+    let body = |name: &str| {
+        let start = text.find(&format!("<body name=\"{name}\"")).unwrap();
+        let (mut depth, mut end) = (0, start);
+        for (at, _) in text[start..].match_indices('<') {
+            let rest = &text[start + at..];
+            depth += i32::from(rest.starts_with("<body")) - i32::from(rest.starts_with("</body>"));
+            if depth == 0 {
+                end = start + at + "</body>".len();
+                break;
+            }
+        }
+        start..end
+    };
+    let (right, left) = (body("right_thigh"), body("left_thigh"));
+    let (one, two) = if right.start < left.start { (right, left) } else { (left, right) };
+    let parts = [&text[..one.start], &text[two.clone()], &text[one.end..two.start], &text[one], &text[two.end..]];
+    fs::write(folder.join("swapped.xml"), parts.concat()).unwrap();
+    let eval = |more: &[&str]| {
+        let args = [&["eval", "run", "--checkpoint", "latest", "--episodes", "2", "--json"], more].concat();
+        last_json(&done(folder, &args))
+    };
+    assert_eq!(eval(&["--model", "swapped.xml"]), eval(&[]));
+    let smoke = ["--preset", "smoke", "--init-from", "run", "--checkpoint", "latest", "--model", "swapped.xml"];
+    let (ours, _) = first_state(folder, "swapped", &smoke);
+    assert_near(&ours.ppo.trained_policy().parameters, &latest(&run_folder).ppo.trained_policy().parameters);
+    let order = |text: &str| ["right_thigh", "left_thigh"].map(|name| text.find(&format!("<body name=\"{name}\"")));
+    let is_right_first = |text: &str| order(text)[0] < order(text)[1];
+    assert_eq!(is_right_first(&ours.model_xml), is_right_first(&text));
+
+    fs::write(folder.join("renamed.xml"), text.replace("right_knee", "other_knee")).unwrap();
+    let parts = ["renamed.xml", "trained with another body", "`other_knee`", "`right_knee`"];
+    assert_refused(&run(folder, &["eval", "run", "--model", "renamed.xml", "--episodes", "1"]), 2, &parts);
+    let train = ["train", "--preset", "smoke", "--init-from", "run", "--model", "renamed.xml", "--run-dir", "never"];
+    assert_refused(&run(folder, &train), 2, &parts);
+    assert!(!folder.join("never").exists());
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::info::StepInfo;
 use crate::model::Model;
 use crate::physics::Physics;
 use crate::randomisation::{Randomiser, SensorNoise};
-use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task, TaskRegistry};
+use crate::task::{HumanoidTask, ObservationTerm, Reached, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
 
 /// Reinforcement-learning environment of one humanoid.
@@ -116,6 +116,15 @@ impl Environment {
     #[must_use]
     pub fn control_step_s(&self) -> f64 {
         self.config.env.control_step_s
+    }
+
+    /// Returns the duration of the longest episode (s); infinite if none ends by time.
+    #[must_use]
+    pub fn episode_s(&self) -> f64 {
+        match self.config.env.max_episode_steps {
+            0 => f64::INFINITY,
+            steps => f64::from(steps) * self.control_step_s(),
+        }
     }
 
     /// Returns the lowest and highest control of each motor (units of control); motors receive actions clamped to them.
@@ -280,6 +289,11 @@ impl Environment {
     #[must_use]
     pub fn task(&self) -> &dyn Task {
         &*self.task
+    }
+
+    /// Begins with curricula that other environments have reached, see [`Task::adopt_curricula`]; call [`Self::reset`] next.
+    pub fn adopt_curricula(&mut self, reached: &Reached<'_>, seed: u64) {
+        self.task.adopt_curricula(reached, seed);
     }
 
     /// Replaces the task's commands, see [`Task::steer`].

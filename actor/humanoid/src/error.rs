@@ -19,6 +19,9 @@ pub enum ModelError {
         /// Problem, and the accepted alternative.
         problem: String,
     },
+    /// A policy was trained with another body.
+    #[error("the policy was trained with another body: {0}")]
+    OtherBody(String),
     /// An attribute is unreadable, or asks for physics that is not simulated.
     #[error("model element `{element}`: `{attribute}` is \"{value}\", but must be {expected}")]
     Attribute {

@@ -2,13 +2,20 @@
 //!
 //! A change of command or a push starts a wait of one second. From then on the time is cut into windows of one second, until
 //! the next change or push. The error of a window is that of its mean velocity, so that the sway of each stride cancels.
+//!
+//! How still a robot stands is measured from two seconds after such a moment on, while the command says: stand.
 
-use treadmill_humanoid::{Physics, task::velocity::Foot};
+use treadmill_humanoid::{
+    Physics,
+    task::velocity::{Command, Foot},
+};
 
 use crate::poses::heading_velocity;
 
 /// Length of a window, and of the wait before the first one (s).
 const WINDOW_S: f64 = 1.0;
+/// Wait before a robot that is commanded to stand must stand still (s).
+const STILL_AFTER_S: f64 = 2.0;
 
 /// What one control step contributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,8 +34,12 @@ pub struct TrackingSample {
     pub path_m: f64,
     /// Sum of the horizontal speeds of the feet that stand (m/s).
     pub slip_mps: f64,
-    /// Number of feet that stand.
+    /// Feet that stand, a bit for each.
     pub standing: u32,
+    /// Where the base is, along x and y (m, world frame).
+    pub place_m: [f64; 2],
+    /// Mean square of the hinges' rates (rad²/s²).
+    pub rates_radps2: f64,
 }
 
 impl TrackingSample {
@@ -39,18 +50,21 @@ impl TrackingSample {
         let position = physics.position();
         let powers = physics.joint_torques_nm().iter().zip(physics.joint_rates()).map(|(torque, rate)| torque * rate);
         let feet = physics.model().robot.iter().flat_map(|robot| &robot.feet);
-        let standing = feet.map(|link| Foot::now(physics, *link, 0.0)).filter(|foot| foot.stands);
-        let (mut slip_mps, mut count) = (0.0, 0);
-        standing.for_each(|foot| {
+        let feet = feet.map(|link| Foot::now(physics, *link, 0.0)).enumerate().filter(|(_, foot)| foot.stands);
+        let (mut slip_mps, mut standing) = (0.0, 0);
+        feet.for_each(|(index, foot)| {
             slip_mps += foot.velocity_mps.xy().norm();
-            count += 1;
+            standing |= 1 << index;
         });
+        let rates = physics.joint_rates();
         Self {
             motion: heading_velocity(physics),
             power_w: powers.map(f64::abs).sum(),
             path_m: (position[0] - from_m[0]).hypot(position[1] - from_m[1]),
             slip_mps,
-            standing: count,
+            standing,
+            place_m: [position[0], position[1]],
+            rates_radps2: rates.iter().map(|rate| rate * rate).sum::<f64>() / rates.len().max(1) as f64,
             ..Self::default()
         }
     }
@@ -69,6 +83,14 @@ pub struct Tracking {
     path_m: f64,
     slips_mps: f64,
     standing: u32,
+    /// While the robot must stand still: times that it had to, control steps, their duration (s), squares of the hinges'
+    /// rates (rad²/s²), feet that were lifted, and largest distances from where it stood first (m).
+    rests: u32,
+    still_steps: u32,
+    still_s: f64,
+    still_rates_radps2: f64,
+    lifts: u32,
+    drifts_m: f64,
 }
 
 impl Tracking {
@@ -96,6 +118,25 @@ impl Tracking {
         ratio(self.slips_mps, self.standing.into())
     }
 
+    /// Returns how far the base goes from where it stood 2 s after a command to stand (m), until the next one; the mean of
+    /// the largest distances. `None` if no command to stand lasted.
+    #[must_use]
+    pub fn standing_drift_m(&self) -> Option<f64> {
+        ratio(self.drifts_m, self.rests.into())
+    }
+
+    /// Returns the root mean square of the hinges' rates from 2 s after a command to stand on (rad/s).
+    #[must_use]
+    pub fn standing_hinge_radps(&self) -> Option<f64> {
+        ratio(self.still_rates_radps2, self.still_steps.into()).map(f64::sqrt)
+    }
+
+    /// Returns how often a foot is lifted from 2 s after a command to stand on (1/s).
+    #[must_use]
+    pub fn standing_lifts_per_s(&self) -> Option<f64> {
+        ratio(self.lifts.into(), self.still_s)
+    }
+
     /// Adds the sums of other episodes.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
@@ -108,6 +149,12 @@ impl Tracking {
             path_m: self.path_m + other.path_m,
             slips_mps: self.slips_mps + other.slips_mps,
             standing: self.standing.saturating_add(other.standing),
+            rests: self.rests + other.rests,
+            still_steps: self.still_steps + other.still_steps,
+            still_s: self.still_s + other.still_s,
+            still_rates_radps2: self.still_rates_radps2 + other.still_rates_radps2,
+            lifts: self.lifts + other.lifts,
+            drifts_m: self.drifts_m + other.drifts_m,
         }
     }
 }
@@ -125,6 +172,10 @@ pub struct Tracker {
     undisturbed_steps: u32,
     /// Sums of motion minus command over the steps of the present window.
     differences: [f64; 3],
+    /// First place of the present rest, and the largest distance from it (m).
+    rest: Option<([f64; 2], f64)>,
+    /// Feet that stood after the step before.
+    stood: u32,
     sums: Tracking,
 }
 
@@ -137,6 +188,8 @@ impl Tracker {
             window_steps: (WINDOW_S / control_step_s).round().max(1.0) as u32,
             undisturbed_steps: 0,
             differences: [0.0; 3],
+            rest: None,
+            stood: 0,
             sums: Tracking::default(),
         }
     }
@@ -148,11 +201,13 @@ impl Tracker {
         sums.energy_j += sample.power_w * self.control_step_s;
         sums.path_m += sample.path_m;
         sums.slips_mps += sample.slip_mps;
-        sums.standing = sums.standing.saturating_add(sample.standing);
+        sums.standing = sums.standing.saturating_add(sample.standing.count_ones());
 
         if sample.is_new_command || sample.is_pushed {
             self.undisturbed_steps = 0;
         }
+        self.record_rest(sample);
+        let sums = &mut self.sums;
         if self.undisturbed_steps.is_multiple_of(self.window_steps) {
             self.differences = [0.0; 3];
         }
@@ -168,6 +223,28 @@ impl Tracker {
             sums.velocity_errors_mps += forward.hypot(left);
             sums.yaw_rate_errors_radps += yaw.abs();
         }
+    }
+
+    /// Adds a step in which the robot must stand still.
+    fn record_rest(&mut self, sample: &TrackingSample) {
+        let stood = std::mem::replace(&mut self.stood, sample.standing);
+        let waited_s = f64::from(self.undisturbed_steps) * self.control_step_s;
+        if !Command::from_numbers(sample.command).stands() || waited_s < STILL_AFTER_S {
+            self.rest = None;
+            return;
+        }
+        let sums = &mut self.sums;
+        let (first_m, furthest_m) = self.rest.unwrap_or_else(|| {
+            sums.rests += 1;
+            (sample.place_m, 0.0)
+        });
+        let drift_m = (sample.place_m[0] - first_m[0]).hypot(sample.place_m[1] - first_m[1]).max(furthest_m);
+        self.rest = Some((first_m, drift_m));
+        sums.drifts_m += drift_m - furthest_m;
+        sums.still_steps += 1;
+        sums.still_s += self.control_step_s;
+        sums.still_rates_radps2 += sample.rates_radps2;
+        sums.lifts += (stood & !sample.standing).count_ones();
     }
 
     /// Returns the sums so far.
@@ -242,8 +319,8 @@ mod tests {
         let none = played(&[TrackingSample::default(); 3]);
         assert_eq!((none.energy_per_metre_jpm(), none.foot_slip_mps()), (None, None));
         let step =
-            TrackingSample { power_w: 40.0, path_m: 0.1, slip_mps: 0.3, standing: 2, ..TrackingSample::default() };
-        let single = TrackingSample { slip_mps: 0.6, standing: 1, ..step };
+            TrackingSample { power_w: 40.0, path_m: 0.1, slip_mps: 0.3, standing: 0b11, ..TrackingSample::default() };
+        let single = TrackingSample { slip_mps: 0.6, standing: 0b10, ..step };
         // Two steps of 0.25 s: 20 J over 0.2 m; 0.9 m/s over three standing feet.
         let sums = played(&[step, single]);
         close(sums.energy_per_metre_jpm(), 100.0);
@@ -251,6 +328,34 @@ mod tests {
         let both = sums.with(played(&[single]));
         close(both.energy_per_metre_jpm(), 100.0);
         close(both.foot_slip_mps(), 1.5 / 4.0);
+    }
+
+    #[test]
+    fn a_robot_that_is_to_stand_is_measured_after_two_seconds() {
+        let stands = |x, rates_radps2, standing| TrackingSample {
+            place_m: [x, 0.0],
+            rates_radps2,
+            standing,
+            ..TrackingSample::default()
+        };
+        let wait = [stands(9.0, 100.0, 0b01); 8];
+        // It goes 0.3 m away and comes back; one foot leaves the ground twice, the other one once.
+        let rest = [stands(1.0, 0.0, 0b11), stands(1.3, 1.0, 0b10), stands(1.1, 0.0, 0b01), stands(1.0, 3.0, 0b00)];
+        let walks = TrackingSample { command: [0.1, 0.0, 0.0], is_new_command: true, ..stands(50.0, 9.0, 0b10) };
+        let none = played(&[&wait[..], &[walks; 12]].concat());
+        assert_eq!(none.standing_drift_m(), None);
+        assert_eq!((none.standing_hinge_radps(), none.standing_lifts_per_s()), (None, None));
+        let one = played(&[&wait[..], &rest].concat());
+        close(one.standing_drift_m(), 0.3);
+        close(one.standing_hinge_radps(), 1.0);
+        close(one.standing_lifts_per_s(), 3.0);
+        // A push begins the wait anew, and the next rest somewhere else.
+        let pushed = TrackingSample { is_pushed: true, ..wait[0] };
+        let two = played(&[&wait[..], &rest, &[pushed], &wait[1..], &[stands(7.0, 4.0, 0b01)], &[walks]].concat());
+        close(two.standing_drift_m(), 0.15);
+        close(two.standing_hinge_radps(), 8.0_f64.sqrt() / 5.0_f64.sqrt());
+        close(two.standing_lifts_per_s(), 3.0 / 1.25);
+        close(one.with(two).standing_lifts_per_s(), 6.0 / 2.25);
     }
 
     #[test]

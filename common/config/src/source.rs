@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use toml::{Table, Value};
+use treadmill_runtime::numbers::parse_count;
+use treadmill_settings::Value as _;
 
 use super::{
     Config, ConfigError, KeyDoc, parse_value, preset,
@@ -30,21 +32,29 @@ impl ConfigSource {
     }
 
     /// Adds TOML text; `origin` names it in errors.
+    ///
+    /// # Errors
+    /// All entries that are wrong, each with its key.
     pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
         let table = parse(text, origin)?;
         let keys = Config::keys();
+        let mut errors = Vec::new();
         for (section, value) in table {
-            let Value::Table(entries) = value else {
-                return Err(unknown(&section, &keys));
-            };
-            if entries.is_empty() && !keys.iter().any(|known| section_of(known) == section) {
-                return Err(unknown(&section, &keys));
-            }
-            for (name, value) in entries {
-                self.put(&format!("{section}.{name}"), value, &keys)?;
+            match value {
+                Value::Table(entries)
+                    if !entries.is_empty() || keys.iter().any(|known| section_of(known) == section) =>
+                {
+                    let put = |(name, value)| self.put(&format!("{section}.{name}"), value, &keys).err();
+                    errors.extend(entries.into_iter().filter_map(put));
+                }
+                _ => errors.push(unknown(&section, &keys)),
             }
         }
-        Ok(())
+        match errors.len() {
+            0 => Ok(()),
+            1 => Err(errors.remove(0)),
+            _ => Err(ConfigError::Several { origin: origin.to_string(), errors }),
+        }
     }
 
     /// Adds those keys of a run's configuration for which `is_needed` returns true. Another version of this program may
@@ -108,7 +118,10 @@ impl ConfigSource {
 
     fn put(&mut self, key: &str, value: Value, keys: &[KeyDoc]) -> Result<(), ConfigError> {
         let known = keys.iter().find(|known| known.key == key).ok_or_else(|| unknown(key, keys))?;
-        let value = known.convert(&value)?;
+        // As after `--steps`: 2M.
+        let count = value.as_str().filter(|_| known.notation == u32::NOTATION).and_then(|text| parse_count(text).ok());
+        let count = count.and_then(|count| i64::try_from(count).ok()).map(Value::Integer);
+        let value = known.convert(&count.unwrap_or(value))?;
         let (section, name) = key.split_once('.').expect("every known key has a section");
         self.table
             .entry(section)
@@ -208,11 +221,34 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn all_wrong_entries_of_a_file_are_named_at_once() {
+        let mut source = ConfigSource::default();
+        let text = "[ppo]\ngamma = 2\nepochs = 'many'\nbatch = 4096\n[rollot]\nenvs = 3\n[run]\nstep = 1";
+        let message = source.text(text, "config file `a.toml`").unwrap_err().to_string();
+        assert!(message.starts_with("config file `a.toml` has 4 wrong entries: "), "{message}");
+        for part in
+            ["`ppo.gamma` is 2.0; allowed: 0 to 1", "`ppo.epochs` is \"many\"", "`rollot", "did you mean `run.steps`"]
+        {
+            assert!(message.contains(part), "{part} in {message}");
+        }
+        assert_eq!(source.build().unwrap().ppo.batch, 4096, "sound entries are kept");
+    }
+
+    #[test]
+    fn counts_are_written_as_people_do() {
+        assert_eq!(set("run.steps=2M").unwrap().run.steps, 2_000_000);
+        let mut source = ConfigSource::default();
+        source.text("[run]\nsteps = \"2M\"\n[rollout]\nenvs = '1k'", "a file").unwrap();
+        let config = source.build().unwrap();
+        assert_eq!((config.run.steps, config.rollout.envs), (2_000_000, 1000));
+        assert!(set("run.name=2M").is_err() && set("run.steps=2X").is_err());
+    }
+
+    #[test]
     fn control_steps_have_a_range_and_pushes_are_no_more_frequent() {
         let message = |pairs: &[&str]| {
             let mut source = ConfigSource::default();
-            pairs.iter().for_each(|pair| source.set(pair).unwrap());
-            source.build().unwrap_err().to_string()
+            pairs.iter().try_for_each(|pair| source.set(pair)).and_then(|()| source.build()).unwrap_err().to_string()
         };
         for bad in ["0", "0.0009", "0.11", "-0.02", "nan", "inf"] {
             let message = message(&[&format!("env.control_step_s={bad}")]);

@@ -93,6 +93,8 @@ pub struct ExportedPolicy {
     pub variance: Vec<f64>,
     /// Meaning of actions.
     pub action: ActionFacts,
+    /// Scale of the critic's values; none in files of older versions.
+    pub returns: Option<ReturnFacts>,
     /// Duration of one control step (s); 0 if it is unknown, for an external task.
     pub control_step_s: f64,
     /// Settings of the environment as TOML, which only the environment interprets.
@@ -127,6 +129,29 @@ pub struct ActionFacts {
     pub high: Vec<f32>,
 }
 
+/// Statistics of the scaled returns: a value of the critic times their standard deviation, plus their mean, is a return.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReturnFacts {
+    /// Returns in the statistics; with none, there is no scale.
+    pub count: f64,
+    /// Their mean.
+    pub mean: f64,
+    /// Their variance.
+    pub variance: f64,
+}
+
+impl ReturnFacts {
+    /// Returns what a file says of these moments, which have one column.
+    pub fn from_moments(moments: &RunningMoments) -> Self {
+        Self { count: moments.count, mean: moments.mean[0], variance: moments.variance()[0] }
+    }
+
+    /// Returns the moments.
+    pub fn moments(&self) -> RunningMoments {
+        RunningMoments { count: self.count, mean: vec![self.mean], m2: vec![self.variance * self.count] }
+    }
+}
+
 /// Metadata; its fields are in the order in which they are written.
 #[derive(Serialize, Deserialize)]
 struct Metadata {
@@ -134,6 +159,8 @@ struct Metadata {
     network: Network,
     observation: ObservationFacts,
     action: ActionFacts,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    returns: Option<ReturnFacts>,
     control_step_s: f64,
     settings: String,
     model_xml: String,
@@ -187,6 +214,7 @@ impl ExportedPolicy {
             },
             observation: self.observation.clone(),
             action: self.action.clone(),
+            returns: self.returns.clone(),
             control_step_s: self.control_step_s,
             settings: self.settings.clone(),
             model_xml: self.model_xml.clone(),
@@ -228,6 +256,7 @@ impl ExportedPolicy {
             shape,
             observation: metadata.observation,
             action: metadata.action,
+            returns: metadata.returns,
             control_step_s: metadata.control_step_s,
             settings: metadata.settings,
             model_xml: metadata.model_xml,
@@ -269,6 +298,12 @@ impl ExportedPolicy {
         }
         if !(self.control_step_s.is_finite() && self.control_step_s >= 0.0) {
             return Err(entry("control_step_s", &self.control_step_s, "a number of at least 0".into()));
+        }
+        if let Some(ReturnFacts { count, mean, variance }) = &self.returns
+            && !(mean.is_finite() && [count, variance].into_iter().all(|number| number.is_finite() && *number >= 0.0))
+        {
+            let expected = "a finite mean, and a count and a variance of at least 0".into();
+            return Err(entry("returns", &format!("{:?}", self.returns), expected));
         }
         if !self.normaliser().is_valid(inputs) {
             let expected = "means, variances and a clip that give finite numbers".into();

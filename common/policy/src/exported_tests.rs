@@ -19,6 +19,7 @@ fn sample() -> ExportedPolicy {
         mean,
         variance,
         action: ActionFacts { names: vec!["hip".into(), "knee".into()], low: vec![-0.4; 2], high: vec![0.4; 2] },
+        returns: Some(ReturnFacts { count: 40.0, mean: 2.5, variance: 0.75 }),
         control_step_s: 0.015,
         settings: "[env]\nreset_noise_scale = 0.02\nhealthy_z_range = [1.0, inf]\n".into(),
         model_xml: "<mujoco/>".into(),
@@ -48,6 +49,17 @@ fn a_policy_survives_and_gives_the_same_bytes_every_time() {
     for _ in 0..20 {
         assert_eq!(sample().to_bytes().unwrap(), bytes);
     }
+}
+
+#[test]
+fn the_scale_of_values_is_kept_and_older_files_have_none() {
+    let mut moments = RunningMoments::new(1);
+    moments.update(&[1.0, 4.0, 4.0], 1);
+    let facts = ReturnFacts::from_moments(&moments);
+    assert_eq!((facts.count, facts.mean, facts.variance), (3.0, 3.0, 2.0));
+    assert_eq!(facts.moments(), moments);
+    let old = with_metadata(|m| drop(m.as_object_mut().unwrap().remove("returns")));
+    assert_eq!(ExportedPolicy::from_bytes(&old).unwrap(), ExportedPolicy { returns: None, ..sample() });
 }
 
 #[test]
@@ -105,7 +117,7 @@ fn other_files_are_refused_with_their_kind() {
 #[test]
 fn invalid_metadata_is_named() {
     type Change = fn(&mut serde_json::Value);
-    let cases: [(Change, &[&str]); 12] = [
+    let cases: [(Change, &[&str]); 13] = [
         (|m| m["format"] = 2.into(), &["format 2", "reads format 1"]),
         (|m| *m = "text".into(), &["metadata", "cannot be read"]),
         (|m| m["network"]["activation"] = "tanh".into(), &["network.activation", "tanh", "elu"]),
@@ -117,6 +129,7 @@ fn invalid_metadata_is_named() {
         (|m| m["observation"]["clip"] = (-1.0).into(), &["observation", "clip"]),
         (|m| m["action"]["names"] = vec!["hip"].into(), &["action.names", "1 long", "2"]),
         (|m| m["action"]["low"] = vec![0.4, 0.4].into(), &["action.low", "0.4", "below action.high"]),
+        (|m| m["returns"]["variance"] = (-1.0).into(), &["returns", "variance: -1.0", "at least 0"]),
         (|m| m["control_step_s"] = (-0.1).into(), &["control_step_s", "is -0.1", "at least 0"]),
     ];
     for (change, parts) in cases {

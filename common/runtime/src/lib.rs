@@ -17,6 +17,7 @@ mod error_chain;
 pub mod holder;
 pub mod machine;
 pub mod numbers;
+pub mod program;
 pub mod run_folder;
 pub mod run_lock;
 pub mod seeds;

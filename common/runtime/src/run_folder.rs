@@ -4,6 +4,7 @@
 //! runs/NAME/
 //!   config.toml           the configuration as used
 //!   command.txt           the command line, one line per start
+//!   resume.txt            the command that goes on with the run
 //!   versions.json         versions of this program, the toolchain's target and the machine
 //!   endpoint.txt          the learner's endpoint
 //!   lock.json             the process that writes into this folder
@@ -193,9 +194,16 @@ impl RunFolder {
         }
         // What cannot be removed stays: the failed start is the error to report.
         let _ = self.remove_stale_files();
-        for name in
-            ["config.toml", "command.txt", "versions.json", "model.xml", "endpoint.txt", "lock.json", "store.txt"]
-        {
+        for name in [
+            "config.toml",
+            "command.txt",
+            "resume.txt",
+            "versions.json",
+            "model.xml",
+            "endpoint.txt",
+            "lock.json",
+            "store.txt",
+        ] {
             let _ = fs::remove_file(self.root.join(name));
         }
         let _ = fs::remove_dir(self.checkpoints());
@@ -236,6 +244,7 @@ impl RunFolder {
         "the lock, see [`crate::run_lock`]" lock = "lock.json";
         "the URL of the store" store = "store.txt";
         "the learner's endpoint" endpoint = "endpoint.txt";
+        "the command that goes on with the run" resume = "resume.txt";
     }
 }
 

@@ -33,6 +33,14 @@ pub enum ConfigError {
         /// Allowed values.
         allowed: String,
     },
+    /// Several entries of a text are wrong.
+    #[error("{origin} has {} wrong entries: {}", errors.len(), errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Several {
+        /// Source of the text.
+        origin: String,
+        /// An error for each.
+        errors: Vec<ConfigError>,
+    },
     /// A `--set` argument without `=`.
     #[error("`--set {given}` is not of the form key=value, for instance --set ppo.learning_rate=3e-4")]
     SetSyntax {

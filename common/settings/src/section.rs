@@ -19,6 +19,8 @@ pub struct KeyDoc {
     pub allowed: &'static str,
     /// Converts a TOML value to the key's type, see [`crate::Value::convert`].
     pub convert: fn(&toml::Value) -> Result<toml::Value, Misfit>,
+    /// Returns whether a converted value is allowed.
+    pub is_allowed: fn(toml::Value) -> bool,
 }
 
 impl KeyDoc {
@@ -31,13 +33,15 @@ impl KeyDoc {
     /// Converts a value to the key's type if that loses nothing, such as `1` to `1.0` and `8e6` to `8000000`.
     ///
     /// # Errors
-    /// [`ConfigError::Type`] or [`ConfigError::Value`] for a value of another type.
+    /// [`ConfigError::Type`] or [`ConfigError::Value`] for a value of another type, or one that is not allowed.
     pub fn convert(&self, value: &toml::Value) -> Result<toml::Value, ConfigError> {
         let (key, allowed) = (self.key.to_string(), self.allowed.to_string());
-        (self.convert)(value).map_err(|misfit| match misfit {
-            Misfit::Type { value, notation } => ConfigError::Type { key, value, notation, allowed },
-            Misfit::Range { value } => ConfigError::Value { key, value, allowed },
-        })
+        match (self.convert)(value) {
+            Ok(converted) if (self.is_allowed)(converted.clone()) => Ok(converted),
+            Ok(converted) => Err(ConfigError::Value { key, value: converted.to_string(), allowed }),
+            Err(Misfit::Type { value, notation }) => Err(ConfigError::Type { key, value, notation, allowed }),
+            Err(Misfit::Range { value }) => Err(ConfigError::Value { key, value, allowed }),
+        }
     }
 }
 
@@ -99,6 +103,11 @@ macro_rules! section {
                     default: $crate::show(&defaults.$field),
                     allowed: $allowed,
                     convert: <$kind as $crate::Value>::convert,
+                    is_allowed: |value| {
+                        let allowed: fn(&$kind) -> bool = $check;
+                        // What is no such value is refused elsewhere.
+                        value.try_into::<$kind>().map_or(true, |value| allowed(&value))
+                    },
                 }, )* ];
                 $crate::SectionDoc { name: $table, about: concat!($( $about ),+).trim(), keys }
             }

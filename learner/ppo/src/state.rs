@@ -107,13 +107,16 @@ impl PpoState {
 
     /// Replaces the policy of a new run. Without `value_moments`, the critic learns the scale of returns anew.
     ///
+    /// Where the learning rate adapts, it begins at its minimum: a finished policy's noise is small, so that small steps
+    /// lead far, and the optimiser does not know its gradients yet.
+    ///
     /// # Errors
     /// The distance of the policy's networks from equivariant ones, relative to their norm, if those of the run are
     /// equivariant and the policy's are not.
     ///
     /// # Panics
     /// If the parameters do not fit the shape.
-    pub fn begin_with(&mut self, policy: TrainedPolicy) -> Result<(), f64> {
+    pub fn begin_with(&mut self, policy: TrainedPolicy, config: &PpoConfig) -> Result<(), f64> {
         self.parameters = self.networks.learnt(policy.parameters)?;
         clamp_log_std(&mut self.parameters[self.networks.log_std_range()]);
         self.observation_moments = policy.observation_moments;
@@ -121,6 +124,9 @@ impl PpoState {
             self.observation_moments.symmetrise(&mirror.observation);
         }
         self.value_moments = policy.value_moments.unwrap_or_else(|| RunningMoments::new(1));
+        if config.target_kl > 0.0 {
+            self.learning_rate = config.learning_rate_min;
+        }
         Ok(())
     }
 

@@ -21,6 +21,11 @@ use crate::{
     update_stats::{UpdateError, UpdateStats, check_finite},
 };
 
+/// Multiple of [`PpoConfig::target_kl`] above which a pass over the batch is undone. Trainings of robots reach 2.6.
+const KL_MAX: f64 = 8.0;
+/// The learning rate is divided by this after a pass that was undone.
+const UNDONE_FACTOR: f64 = 4.0;
+
 /// What learning needs beside its state.
 #[derive(Clone, Debug)]
 pub struct PpoOptions {
@@ -77,7 +82,8 @@ impl Ppo {
         Policy::with_pool(state.networks.clone(), state.parameters.clone(), pool.clone(), device)
     }
 
-    /// Takes `epochs` passes over a batch, in an order drawn from the state's random stream.
+    /// Takes `epochs` passes over a batch, in an order drawn from the state's random stream. A pass that leads too far from
+    /// the policy of the batch is undone, and the next one takes smaller steps.
     ///
     /// # Errors
     /// If the batch does not fit, or a loss, gradient or parameter is not finite. Then only the random stream has changed.
@@ -121,6 +127,7 @@ impl Ppo {
             ..UpdateStats::default()
         };
         for _ in 0..epochs {
+            let before = (config.target_kl > 0.0).then(|| (state.parameters.clone(), state.optimiser.clone()));
             shuffle(&mut order, &mut state.shuffle);
             // On a thread of the pool, so that the others wait for its next task and are not woken for each.
             pool.install(|| -> Result<(), UpdateError> {
@@ -132,9 +139,18 @@ impl Ppo {
                 Ok(())
             })?;
             check_finite(state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
-            stats.approx_kl = shift.divergence(&state.parameters, pool);
-            check_finite(stats.approx_kl.is_finite(), "divergence from the old policy")?;
-            state.learning_rate = adapt_learning_rate(state.learning_rate, stats.approx_kl, config);
+            let approx_kl = shift.divergence(&state.parameters, pool);
+            check_finite(approx_kl.is_finite(), "divergence from the old policy")?;
+            if let Some((parameters, optimiser)) = before
+                && approx_kl > KL_MAX * config.target_kl
+            {
+                (state.parameters, state.optimiser) = (parameters, optimiser);
+                state.learning_rate = (state.learning_rate / UNDONE_FACTOR).max(config.learning_rate_min);
+                stats.undone_passes += 1;
+                continue;
+            }
+            stats.approx_kl = approx_kl;
+            state.learning_rate = adapt_learning_rate(state.learning_rate, approx_kl, config);
         }
         stats.finish(&networks.log_std(&state.parameters), state.learning_rate);
         Ok(stats)

@@ -18,6 +18,8 @@ pub struct UpdateStats {
     /// KL divergence in nats from the policy that the update started from to that after the last epoch, in closed form
     /// over a sample of the rows.
     pub approx_kl: f64,
+    /// Passes that were undone, because they led too far from the policy that the update started from.
+    pub undone_passes: u32,
     /// Share of rows whose probability ratio is outside the clip range.
     pub clip_fraction: f64,
     /// Share of the variance of the returns that the values before the update explain.

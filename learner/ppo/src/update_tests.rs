@@ -261,10 +261,13 @@ fn the_learning_rate_adapts_once_per_epoch() {
 #[test]
 fn the_divergence_is_that_after_the_last_step() {
     // One pass of one gradient step: the ratios are 1 when its gradient is computed.
-    let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 5e-6, learning_rate: 1e-3, ..config() };
+    let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 0.0, learning_rate: 1e-3, ..config() };
     let mut updater = updater(&config, 1);
     let before = updater.policy();
     let batch = batch(&updater, 600, 8);
+    let free = updater.clone().update(&batch, 9).expect("a sound batch").approx_kl;
+    let config = PpoConfig { target_kl: free / 3.0, ..config };
+    updater.ppo.set_config(&config);
     let stats = updater.update(&batch, 9).expect("a sound batch");
     assert_eq!(stats.gradient_steps, 1);
     let after = updater.policy();
@@ -278,6 +281,32 @@ fn the_divergence_is_that_after_the_last_step() {
     assert!((stats.approx_kl - expected).abs() < 1e-3 * expected, "{} {expected}", stats.approx_kl);
     // The step was too large.
     assert!((stats.learning_rate - 1e-3 / 1.5).abs() < 1e-12, "{}", stats.learning_rate);
+}
+
+#[test]
+fn passes_that_lead_too_far_are_undone() {
+    let config = PpoConfig { target_kl: 0.01, learning_rate: 0.3, learning_rate_max: 0.3, epochs: 8, ..config() };
+    let mut updater = updater(&config, 1);
+    // As little noise as a finished policy has.
+    let range = updater.state.networks.log_std_range();
+    updater.state.parameters[range].fill(-3.0);
+    let (before, batch) = (updater.policy(), batch(&updater, 600, 8));
+    let stats = updater.update(&batch, 9).expect("a sound batch");
+    assert!((1..8).contains(&stats.undone_passes), "{stats:?}");
+    assert!(stats.approx_kl > 0.0 && stats.approx_kl <= 0.08, "{stats:?}");
+    let after = updater.policy();
+    let means = |policy: &Policy| {
+        let mut means = vec![0.0; 1200];
+        policy.means(&batch.observations, 600, &mut means).expect("candle runs");
+        means
+    };
+    let exact = kl_divergence(&means(&before), before.log_std(), &means(&after), after.log_std());
+    assert!((stats.approx_kl / exact - 1.0).abs() < 1e-3, "{} {exact}", stats.approx_kl);
+    assert!(stats.learning_rate <= 0.3 / 4.0_f64.powi(stats.undone_passes as i32) * 1.5_f64.powi(8), "{stats:?}");
+    // Steps that were taken back are not counted by the optimiser.
+    assert_eq!(updater.state.gradient_steps(), (8 - u64::from(stats.undone_passes)) * 2);
+    let fixed = PpoConfig { target_kl: 0.0, ..config };
+    assert_eq!(self::updater(&fixed, 1).update(&batch, 9).expect("a sound batch").undone_passes, 0);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::CheckpointError;
 
 const MAGIC: &[u8; 8] = b"TREADMIL";
 /// Version of the format, raised whenever the state's fields change: bincode files do not describe themselves.
-pub const FORMAT: u32 = 9;
+pub const FORMAT: u32 = 10;
 const CHECKSUM_BYTES: usize = 4;
 const HEADER_BYTES: usize = 8 + 4 + 8 + CHECKSUM_BYTES;
 /// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim
@@ -118,7 +118,7 @@ mod tests {
         assert!(why(&newer).contains("format 99"), "{}", why(&newer));
         let mut older = sound.clone();
         older[8] = 1;
-        assert!(why(&older).contains("format 1; this program reads format 9"), "{}", why(&older));
+        assert!(why(&older).contains(&format!("format 1; this program reads format {FORMAT}")), "{}", why(&older));
         assert!(why(&[b'x'; 200]).contains("does not begin"));
     }
 

@@ -128,6 +128,7 @@ mod tests {
             distance_m: 2.0,
             velocity_mean_mps: 0.5,
             cause,
+            ground_kind: None,
             ground_level: None,
             command_factor: None,
         }

@@ -3,8 +3,11 @@
 //! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so
 //! far, or before the first evaluation the best return in training: the mean of the middle half of the last 100 episodes,
 //! which a few absurd returns do not change. `NNNNNNNN.bundle`, named by the number of updates, is written every
-//! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
+//! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept. A run's history is a line: those after
+//! the one that it is resumed from move to a folder `abandoned-after-N`.
 
+mod abandoned;
+pub mod curricula;
 pub mod encoding;
 pub mod episodes;
 mod fallback;
@@ -21,6 +24,7 @@ use treadmill_store::StoreError;
 
 use self::encoding::FORMAT;
 use crate::waiting::{MayPass, Obstacle};
+pub use abandoned::set_aside;
 pub use episodes::{EpisodeMeans, EpisodeWindow};
 pub use state::{Counters, TrainingState};
 pub use writer::CheckpointWriter;

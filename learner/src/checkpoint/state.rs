@@ -33,6 +33,8 @@ pub struct TrainingState {
     pub fragment_counts: FragmentCounts,
     /// Last finished episodes.
     pub episodes: EpisodeWindow,
+    /// Curricula that environments have reached.
+    pub curricula: super::curricula::Curricula,
     /// Counters of the run.
     pub counters: Counters,
     /// Best mean return so far.
@@ -109,7 +111,10 @@ impl TrainingState {
                 counters.env_steps_undone += transitions;
             }
         }
-        fragments.iter().for_each(|accepted| self.episodes.extend(&accepted.fragment.episodes));
+        for accepted in fragments {
+            self.episodes.extend(&accepted.fragment.episodes);
+            self.curricula.extend(&accepted.fragment.episodes);
+        }
         self.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
     }
 
@@ -127,6 +132,7 @@ impl TrainingState {
             ledger: Ledger::default(),
             fragment_counts: FragmentCounts::default(),
             episodes: EpisodeWindow::default(),
+            curricula: super::curricula::Curricula::default(),
             counters: Counters::default(),
             best_return: None,
             best_is_evaluated: false,
@@ -287,7 +293,7 @@ impl TrainingState {
         let normaliser = Normaliser::from_moments(&policy.observation_moments, config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
         let mirror = self.ppo.networks().mirror();
-        Ok(PolicyBundle {
+        let bundle = PolicyBundle {
             run: self.run.clone(),
             version: self.lineage.newest(),
             observation_size: narrow(self.shape().observation)?,
@@ -310,6 +316,8 @@ impl TrainingState {
             privileged_size: narrow(self.shape().privileged)?,
             observation_mirror: mirror.map(|mirror| mirror_indices(&mirror.observation)).unwrap_or_default(),
             action_mirror: mirror.map(|mirror| mirror_indices(&mirror.action)).unwrap_or_default(),
-        })
+            ..PolicyBundle::default()
+        };
+        Ok(self.curricula.in_bundle(bundle))
     }
 }

@@ -184,7 +184,7 @@ impl Leadership {
             status: Status::Training,
             host: machine::host_name(),
             pid: std::process::id(),
-            program_version: env!("CARGO_PKG_VERSION").to_string(),
+            program_version: treadmill_runtime::program::version().to_string(),
         };
         self.advance(manifest)?;
         self.saves += 1;

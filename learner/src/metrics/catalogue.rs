@@ -145,6 +145,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// KL divergence from the policy before the update to the one after its last epoch, in closed form. Over
     /// twice `ppo.target_kl`, the learning rate is divided by 1.5; under half of it, multiplied.
     IMPORTANT "train/approx_kl", "nats", "0.03→0.027" => Sometimes(|r| Some(r.update?.approx_kl));
+    /// Passes that were undone, because the divergence was above eight times `ppo.target_kl`.
+    "train/undone_passes", "count", "0" => Sometimes(|r| Some(r.update?.undone_passes.into()));
     /// Samples whose probability ratio left 1 ± `ppo.clip_range`.
     IMPORTANT "train/clip_fraction", "share", "0.25→0.28" => Sometimes(|r| Some(r.update?.clip_fraction));
     /// Minus the entropy of the actions' distribution, summed over actions.

@@ -60,9 +60,8 @@ impl MetricsReport {
         }
         let lines = JsonLines::append(&folder.metrics())?;
         let mut events = EventWriter::create(folder.root(), now, &machine::host_name())?;
-        if env_steps > 0 {
-            events.resume(env_steps + 1, now)?;
-        }
+        let first_step = if env_steps > 0 { env_steps + 1 } else { 0 };
+        events.begin_session(first_step, now)?;
         events.hyperparameters(config, now)?;
         // Texts that apply from this step on; TensorBoard also shows the earlier ones.
         for (tag, text) in [

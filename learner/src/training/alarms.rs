@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use treadmill_bus::learner::RateLimitedLog;
 use treadmill_config::{Config, LearnerMode};
 use treadmill_ppo::{UpdateError, UpdateStats};
 use treadmill_runtime::error_chain;
@@ -13,6 +12,8 @@ use crate::{intake::Rejections, metrics::Efficiency};
 const USED_SHARE_MIN: f64 = 0.9;
 /// An alarm about rejected or undone work lasts for this long.
 const LASTS: Duration = Duration::from_secs(60);
+/// Time for which steps are wasted before that is an alarm.
+const WASTE_LASTS: Duration = Duration::from_secs(10);
 /// Most senders that are named.
 const SENDERS_MAX: usize = 4;
 
@@ -20,25 +21,40 @@ const SENDERS_MAX: usize = 4;
 #[derive(Debug, Default)]
 pub(super) struct Alarms {
     waste: Option<String>,
+    /// Since when steps are wasted, and when that was logged last.
+    wasting_since: Option<Instant>,
+    logged: Option<Instant>,
     undone: Option<(Instant, String)>,
-    log: RateLimitedLog,
 }
 
 impl Alarms {
-    /// Records the efficiency after an update. `late` fragments were too old, in this run.
-    pub(super) fn record_efficiency(&mut self, efficiency: Efficiency, late: u64, undone: u64, config: &Config) {
+    /// Records the efficiency after an update. `late` fragments were too old, in this run. The first updates say little:
+    /// waste is an alarm once it has lasted, and is logged once a minute.
+    pub(super) fn record_efficiency(
+        &mut self,
+        efficiency: Efficiency,
+        [late, undone]: [u64; 2],
+        config: &Config,
+        now: Instant,
+    ) {
         let wasted = efficiency.used_share.filter(|share| *share < USED_SHARE_MIN);
+        let since = *self.wasting_since.get_or_insert(now);
+        if wasted.is_none() {
+            self.wasting_since = None;
+        }
+        let wasted = wasted.filter(|_| now.duration_since(since) >= WASTE_LASTS);
         let remedy = if late > 0 || undone == 0 { remedy(config) } else { "the log says why updates were undone" };
-        if let Some(used_share) = wasted {
-            self.log.emit(|| {
-                tracing::warn!(
-                    used_share,
-                    too_old = late,
-                    undone_updates = undone,
-                    remedy,
-                    "simulated steps are not learnt from"
-                );
-            });
+        if let Some(used_share) = wasted
+            && self.logged.is_none_or(|logged| now.duration_since(logged) >= LASTS)
+        {
+            self.logged = Some(now);
+            tracing::warn!(
+                used_share,
+                too_old = late,
+                undone_updates = undone,
+                remedy,
+                "simulated steps are not learnt from"
+            );
         }
         self.waste = wasted.map(|share| {
             format!(
@@ -96,7 +112,14 @@ mod tests {
         let (wasteful, mut config) =
             (Efficiency { used_share: Some(0.64), ..Efficiency::default() }, Config::default());
         config.rollout.fragment_steps = 128;
-        alarms.record_efficiency(wasteful, 12, 0, &config);
+        alarms.record_efficiency(wasteful, [12, 0], &config, now);
+        assert!(alarms.texts(&rejections, now).is_empty(), "the first updates say little");
+        let now = now + WASTE_LASTS;
+        alarms.record_efficiency(wasteful, [12, 0], &config, now);
+        let logged = alarms.logged;
+        assert_eq!(logged, Some(now));
+        alarms.record_efficiency(wasteful, [12, 0], &config, now + LASTS / 2);
+        assert_eq!(alarms.logged, logged, "once a minute");
         alarms.record_undone("the loss is not finite", now);
         rejections.record("bad", "`rewards` is absurd", now);
         let texts = alarms.texts(&rejections, now);
@@ -107,11 +130,13 @@ mod tests {
             "{}",
             texts[2]
         );
-        alarms.record_efficiency(Efficiency { used_share: Some(0.97), ..Efficiency::default() }, 12, 0, &config);
+        let better = Efficiency { used_share: Some(0.97), ..Efficiency::default() };
+        alarms.record_efficiency(better, [12, 0], &config, now);
         assert!(alarms.texts(&rejections, now + LASTS).is_empty());
         (config.rollout.fragment_steps, config.learner.mode) = (0, LearnerMode::Async);
         for (late, undone, wanted) in [(12, 8, "learner.max_policy_lag"), (0, 8, "why updates were undone")] {
-            alarms.record_efficiency(wasteful, late, undone, &config);
+            alarms.record_efficiency(wasteful, [late, undone], &config, now);
+            alarms.record_efficiency(wasteful, [late, undone], &config, now + WASTE_LASTS);
             assert!(alarms.texts(&rejections, now + LASTS)[0].contains(wanted), "{wanted}");
         }
     }

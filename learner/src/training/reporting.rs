@@ -169,7 +169,8 @@ impl Reporting {
         let (env_steps, effort) = (state.counters.env_steps, serving.intake.fleet.effort());
         self.efficiency =
             self.efficiency_meter.mark(Instant::now(), env_steps, serving.waited, learnt, effort, alive.len());
-        self.alarms.record_efficiency(self.efficiency, validator.counts.too_old, state.counters.undone_updates, config);
+        let losses = [validator.counts.too_old, state.counters.undone_updates];
+        self.alarms.record_efficiency(self.efficiency, losses, config, Instant::now());
         self.lag_mean = lag.mean;
         let is_due = self.is_due(state, config, evaluation.is_some());
         let stats = self.stats.newest();

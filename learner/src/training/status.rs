@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use treadmill_config::Config;
 use treadmill_proto::{Phase, RunStatus};
-use treadmill_runtime::machine;
+use treadmill_runtime::{machine, program};
 
 use super::Trainer;
 use crate::checkpoint::TrainingState;
@@ -20,7 +20,7 @@ pub(super) fn first(state: &TrainingState, config: &Config) -> RunStatus {
         version: Some(state.lineage.newest()),
         host: machine::host_name(),
         pid: std::process::id(),
-        program_version: env!("CARGO_PKG_VERSION").to_string(),
+        program_version: program::version().to_string(),
         env_steps_wanted: config.run.steps,
         ..RunStatus::default()
     }

@@ -39,6 +39,9 @@ for episode in range(args.episodes):
     positions = [number(info.get("x_position"))]
     total, length, over = 0.0, 0, False
     while not over:
+        broken = np.flatnonzero(~np.isfinite(np.ravel(observation)))
+        if len(broken):
+            sys.exit(f"error: entry {broken[0]} of the observation of `{args.env}` is not finite in step {length + 1}; mend the sensor")
         actions = task.to_env(policy.means(np.float32(observation).reshape(1, -1)))
         observation, reward, terminated, truncated, info = env.step(actions[0].reshape(env.action_space.shape))
         positions.append(number(info.get("x_position")))

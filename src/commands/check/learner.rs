@@ -4,7 +4,7 @@ use std::{io, time::Duration};
 
 use treadmill_bus::{Bus, BusOptions, Credentials, Role, observer::statuses};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::{error_chain, holder::Holder, machine};
+use treadmill_runtime::{error_chain, holder::Holder, machine, program};
 
 use crate::{
     diagnosis::{self, finding::Finding, route},
@@ -154,7 +154,7 @@ fn answers(status: &RunStatus) -> Finding {
 }
 
 fn versions(status: &RunStatus) -> Finding {
-    let ours = env!("CARGO_PKG_VERSION");
+    let ours = program::version();
     if status.program_version != ours {
         let seen = format!("the learner of `{}` has version {}, this has {ours}", status.run, status.program_version);
         return Finding::problem(VERSIONS, seen, SAME_VERSION);

@@ -79,6 +79,12 @@ impl CommandFile {
         }
     }
 
+    /// Returns the times of the commands that begin at `end_s` or later (s), when an episode is over.
+    #[must_use]
+    pub fn after(&self, end_s: f64) -> &[f64] {
+        &self.times_s[self.times_s.partition_point(|begin_s| *begin_s + EARLY_S < end_s)..]
+    }
+
     /// Returns the command at a time since the start of an episode (s).
     #[must_use]
     pub fn at(&self, time_s: f64) -> [f64; 3] {

@@ -36,7 +36,7 @@ use crate::{
     launch::{
         exit_code::Usage,
         model::{self, ModelArgs},
-        output::{say, say_to_reader},
+        output::{say, say_error, say_to_reader},
         slow_step::SlowStepNotice,
     },
     shared::saved_policy::{self, Origin, SavedPolicy},
@@ -108,6 +108,9 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     if let Some(path) = args.commands.as_ref().filter(|_| !has_commands) {
         let why = "this task has no commands; leave --commands out, or play a policy of the velocity task";
         return Err(Usage(format!("--commands {}: {why}", path.display())).into());
+    }
+    if let (Some(path), Some(file)) = (&args.commands, &commands) {
+        warn_of_unplayed(path, file, environment.episode_s());
     }
     let mut trace = args.trace.as_deref().map(Trace::create).transpose()?;
     let print_every = match (args.print_every, args.agent) {
@@ -198,7 +201,8 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(tasks, run, &policy, &config)?,
         Some(file) => {
-            let environment = model::environment(tasks, &config, &model::completed(&config, Some(file))?, Some(file))?;
+            let text = model::in_order_of(&model::completed(&config, Some(file))?, &policy.model_xml, file)?;
+            let environment = model::environment(tasks, &config, &text, Some(file))?;
             check_fits(&policy, &environment, file)?;
             environment
         }
@@ -220,7 +224,7 @@ fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> 
     Ok(config)
 }
 
-/// Tests that the model has as many observations and actions as the policy; the user must know that they mean the same.
+/// Tests that the model has as many observations and actions as the policy.
 fn check_fits(policy: &ExportedPolicy, environment: &Environment, file: &Path) -> Result<(), Usage> {
     let wanted = (policy.shape.observation, policy.shape.action);
     let found = (environment.observation_size(), environment.action_size());
@@ -242,6 +246,18 @@ fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     match args.agent {
         AgentKind::PreferredAction => Box::new(PreferredActionAgent::new(args.seed, action_size)),
         _ => Box::new(RandomAgent::new(args.seed)),
+    }
+}
+
+/// Warns of commands that no episode reaches.
+fn warn_of_unplayed(path: &Path, file: &CommandFile, episode_s: f64) {
+    if let unplayed @ [first_s, ..] = file.after(episode_s) {
+        say_error(&format!(
+            "--commands {}: {} commands from time_s {first_s} on are not played, because episodes end at {episode_s} s; \
+             set env.max_episode_steps",
+            path.display(),
+            unplayed.len()
+        ));
     }
 }
 
@@ -304,6 +320,13 @@ fn print_tracking(tracking: &Tracking) {
         tracking.energy_per_metre_jpm().map_or("-".into(), |jpm| format!("{jpm:.0}"))
     ));
     say(&format!("foot slip     {} m/s", number(tracking.foot_slip_mps())));
+    if let (Some(drift_m), Some(hinge_radps), Some(lifts)) =
+        (tracking.standing_drift_m(), tracking.standing_hinge_radps(), tracking.standing_lifts_per_s())
+    {
+        say(&format!(
+            "standing      drifts {drift_m:.2} m, hinges turn at {hinge_radps:.2} rad/s, {lifts:.2} lifts/s of a foot"
+        ));
+    }
     say(&format!("pushes        {}", tracking.pushes));
 }
 
@@ -335,6 +358,9 @@ fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, co
         fields["yaw_rate_error_radps"] = json!(tracking.yaw_rate_error_radps());
         fields["energy_per_metre_jpm"] = json!(tracking.energy_per_metre_jpm());
         fields["foot_slip_mps"] = json!(tracking.foot_slip_mps());
+        fields["standing_drift_m"] = json!(tracking.standing_drift_m());
+        fields["standing_hinge_radps"] = json!(tracking.standing_hinge_radps());
+        fields["standing_lifts_per_s"] = json!(tracking.standing_lifts_per_s());
         fields["pushes"] = json!(tracking.pushes);
         fields["windows"] = json!(tracking.windows);
     }

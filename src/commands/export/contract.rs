@@ -6,7 +6,9 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig,
     config::ChosenTask,
     model::{HingeControl, Robot},
-    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, TERMS, TermRow},
+    task::velocity::{
+        ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
+    },
 };
 use treadmill_policy::onnx::ForController;
 use treadmill_proto::onnx::Ports;
@@ -64,7 +66,8 @@ impl Contract {
             default_rad: robot.default_position[7 + index],
             kp: control.kp,
             kd: control.kd,
-            effort_nm: control.effort_nm,
+            // A limit of the file's joint holds too.
+            effort_nm: model.effort_nm(index).unwrap_or(control.effort_nm),
             armature_kgm2: model.hinges[index].armature_kgm2,
             action_scale_rad: control.action_scale_rad,
             motor: robot.motor_number(&model.hinges[index].name).unwrap_or(index),
@@ -145,6 +148,8 @@ impl Contract {
                 }),
             ),
             ("gait_period_s", json!(velocity.gait_period_s)),
+            // Norm of the command below which the phase is (0, 0).
+            ("gait_rests_below", json!(if velocity.gait_rests { STANDING_COMMAND } else { 0.0 })),
             (
                 "height_scan",
                 json!({

@@ -1,12 +1,14 @@
 //! `treadmill status --watch` on a terminal: draws the state of runs and handles keys.
 
 use std::{
+    io::{self, IsTerminal},
     sync::mpsc::{Receiver, sync_channel},
     time::{Duration, Instant},
 };
 
 use anyhow::Context;
 use ratatui::{Frame, crossterm::event};
+use rustix::event::{PollFd, PollFlags, Timespec};
 use tokio::signal::unix::{SignalKind, signal};
 use treadmill_bus::Role;
 use treadmill_runtime::{machine, shutdown::Shutdown};
@@ -18,12 +20,17 @@ use super::{
     keys::{self, KeyAction},
 };
 use crate::{
-    launch::terminal_screen::TerminalScreen,
+    launch::{signals, terminal_screen::TerminalScreen},
     shared::learner_address::{self, ReachArgs},
 };
 
 /// Interval of redrawing without key presses.
 const TICK: Duration = Duration::from_millis(250);
+
+/// Time after a signal in which the dashboard ends by itself.
+const EXIT_AFTER: Duration = Duration::from_secs(1);
+/// Exit code otherwise: 128 + SIGHUP, the convention of shells.
+const EXIT_CUT_OFF: i32 = 129;
 
 /// Shows the dashboard until a key or a signal ends it.
 pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
@@ -42,19 +49,36 @@ pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
 
 /// Turns signals into a regular exit, which restores the terminal.
 fn exit_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
-    for kind in [SignalKind::terminate(), SignalKind::interrupt(), SignalKind::hangup()] {
-        let (mut signals, shutdown) = (signal(kind)?, shutdown.clone());
-        tokio::spawn(async move {
-            signals.recv().await;
-            shutdown.ask();
-        });
-    }
+    let (mut terminate, mut interrupt) = (signal(SignalKind::terminate())?, signal(SignalKind::interrupt())?);
+    let mut hangup = signals::hangup()?;
+    tokio::spawn(async move {
+        tokio::select! {
+            _ = terminate.recv() => {}
+            _ = interrupt.recv() => {}
+            () = signals::received(&mut hangup) => {}
+        }
+        shutdown.ask();
+        // What reads the keys of a terminal that is gone may never return.
+        tokio::time::sleep(EXIT_AFTER).await;
+        std::process::exit(EXIT_CUT_OFF);
+    });
     Ok(())
+}
+
+/// Waits for a key on standard input, a terminal, for at most `timeout`. Returns false if it was closed: what reads keys
+/// would then read for ever, and not wait.
+fn wait_for_key(timeout: Duration) -> bool {
+    let mut polled = [PollFd::from_borrowed_fd(rustix::stdio::stdin(), PollFlags::IN)];
+    let timeout = Timespec { tv_sec: 0, tv_nsec: timeout.subsec_nanos().into() };
+    let gone = PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL;
+    // A signal, such as that of another size, interrupts it.
+    rustix::event::poll(&mut polled, Some(&timeout)).is_err() || !polled[0].revents().intersects(gone)
 }
 
 fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
     const UNUSABLE: &str = "the terminal cannot be used; plain text appears without --watch, or in a pipe";
     let (is_coloured, is_unicode) = (draw::is_coloured(), machine::is_utf8_locale());
+    let has_keyboard = io::stdin().is_terminal();
     let mut screen = TerminalScreen::open().context(UNUSABLE)?;
     let mut fleet = Fleet::new(Instant::now());
     while !shutdown.asked() {
@@ -78,6 +102,12 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
         };
         screen.draw(draw).context(UNUSABLE)?;
         let mut timeout = TICK;
+        if has_keyboard {
+            if !wait_for_key(TICK) {
+                break;
+            }
+            timeout = Duration::ZERO;
+        }
         while event::poll(timeout).context(UNUSABLE)? {
             match keys::action(&event::read().context(UNUSABLE)?, fleet.shows_help) {
                 Some(KeyAction::Quit) => return Ok(()),

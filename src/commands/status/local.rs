@@ -3,13 +3,13 @@
 use serde_json::json;
 use treadmill_runtime::numbers::thousands;
 
-use crate::{commands::runs::record::Record, launch::prepared::resume_command_of, shared::learner_address::ReachArgs};
+use crate::{commands::runs::record::Record, launch::resume_line, shared::learner_address::ReachArgs};
 
 /// Returns the results of the run whose folder `reach` names, and how to go on, if no process trains it: as text or as
 /// JSON.
 pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<String>> {
     let folder = reach.idle_folder()?;
-    Some(Record::read(folder.root()).map(|record| describe(&record, &resume_command_of(&folder), json)))
+    Some(Record::read(folder.root()).map(|record| describe(&record, &resume_line::of_folder(&folder), json)))
 }
 
 fn describe(record: &Record, resumed_by: &str, json: bool) -> String {

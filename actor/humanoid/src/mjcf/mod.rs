@@ -24,6 +24,7 @@ mod joints;
 mod keyframes;
 mod mass;
 mod motors;
+mod order;
 mod pairs;
 mod pose;
 mod reader;
@@ -37,6 +38,7 @@ use std::collections::BTreeMap;
 
 pub use self::card_text::with_built_in;
 pub use self::embed::read_model_file;
+pub use self::order::in_order_of;
 pub use self::visual::{VisualMesh, visual_meshes};
 pub use self::xml::MODEL_BYTES_MAX;
 use crate::error::ModelError;

@@ -49,10 +49,23 @@ pub struct StepEvaluation {
 /// How hard an episode is, where the task adapts that.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difficulty {
+    /// Kind of the ground, of those in the configuration.
+    pub ground_kind: Option<u32>,
     /// Level of the ground's difficulty, from 0.
     pub ground_level: Option<f64>,
     /// Factor on the ranges of commands.
     pub command_factor: Option<f64>,
+}
+
+/// Curricula that environments of a run have reached lately.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reached<'a> {
+    /// Kinds of ground of the last episodes.
+    pub ground_kinds: &'a [u32],
+    /// Level of each.
+    pub ground_levels: &'a [u32],
+    /// Factors on the ranges of commands.
+    pub command_factors: &'a [f32],
 }
 
 /// Result of one control step.
@@ -124,6 +137,10 @@ pub trait Task: Any + Send + Sync {
     fn difficulty(&self) -> Difficulty {
         Difficulty::default()
     }
+
+    /// Begins with curricula that other environments of the run have reached, instead of with the first ones. Called
+    /// before the first episode.
+    fn adopt_curricula(&mut self, _reached: &Reached<'_>, _seed: u64) {}
 
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers.
     /// Their count is the same at all times.

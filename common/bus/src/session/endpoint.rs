@@ -10,11 +10,12 @@ pub fn check(endpoint: &str, insecure: bool, has_certificates: bool) -> Result<(
     let Some((protocol, rest)) = endpoint.split_once('/') else {
         return refuse("it has no protocol; write tcp/HOST:PORT");
     };
+    let shown = if protocol == "tls" { "tls" } else { "tcp" };
     let Some((host, port)) = without_options(rest).0.rsplit_once(':') else {
-        return refuse("it has no port; write tcp/HOST:PORT");
+        return refuse(&format!("it has no port; write {shown}/HOST:PORT"));
     };
     if host.is_empty() || port.parse::<u16>().is_err() {
-        return refuse("host or port is not valid; write tcp/HOST:PORT with a port from 0 to 65535");
+        return refuse(&format!("host or port is not valid; write {shown}/HOST:PORT with a port from 0 to 65535"));
     }
     match protocol {
         "tls" if has_certificates => Ok(()),
@@ -69,6 +70,8 @@ mod tests {
         let refused = |endpoint| check(endpoint, false, false).unwrap_err().to_string();
         assert!(refused("tcp/0.0.0.0:7447").contains("--insecure"));
         assert!(refused("tls/learner:7447").contains("--tls DIR"));
+        assert!(refused("tls/learner").contains("write tls/HOST:PORT"));
+        assert!(refused("tcp/learner").contains("write tcp/HOST:PORT"));
         assert!(check("tcp/0.0.0.0:7447", true, false).is_ok());
         let why = check_encrypted("tcp/127.0.0.1:7447").unwrap_err().to_string();
         assert!(why.contains("write tls/127.0.0.1:7447"), "{why}");

@@ -54,7 +54,8 @@ rewards! {
     vertical_velocity = -0.5;
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate = -0.05;
-    /// Share of the feet that stand or swing as the gait says, less the share of the others.
+    /// Share of the feet that stand or swing as the gait says, less the share of the others. Without a phase, a robot that
+    /// walks earns 1 on one foot and -1 on none or both; one that is to stop earns nothing until it is slow and upright.
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;
@@ -67,6 +68,8 @@ rewards! {
     landing = 0.0;
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
     pose = -0.5;
+    /// Squared rates of the hinges (rad²/s²), while the robot is to stand and is slow and upright.
+    stand_still = 0.0;
     /// Squared change of the action from step to step, in units of the action.
     action_rate = -0.01;
     /// Squared torques (N²m²).

@@ -76,9 +76,10 @@ impl EventWriter {
         Ok(writer)
     }
 
-    /// On resume, makes TensorBoard discard the older files' data from `first_step` on, because the run will write it
-    /// again. `first_step` is the checkpoint's step plus one.
-    pub fn resume(&mut self, first_step: u64, time_unix_s: f64) -> io::Result<()> {
+    /// Begins the session of a start. On resume, TensorBoard discards the older files' data from `first_step` on, because
+    /// the run will write it again: the checkpoint's step plus one. It takes no notice of the first session, so a new run
+    /// has one too, from step 0.
+    pub fn begin_session(&mut self, first_step: u64, time_unix_s: f64) -> io::Result<()> {
         self.event(Event {
             wall_time: time_unix_s,
             step: first_step as i64,

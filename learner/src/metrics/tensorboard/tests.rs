@@ -68,7 +68,7 @@ fn scalars_and_text_are_read_back() {
     writer.text(0, 1_700_000_000.9, "config", "# *ä*").unwrap();
     writer.scalars(8192, 2.5, &scalars(&[("rollout/ep_rew_mean", 0.0), ("train/std", f64::NAN), ("x", 1e39)])).unwrap();
     writer.scalars(9000, 3.5, &scalars(&[("train/std", f64::NEG_INFINITY)])).unwrap();
-    writer.resume(8193, 4.5).unwrap();
+    writer.begin_session(8193, 4.5).unwrap();
 
     let [file] = &files(folder.path())[..] else { panic!("one file") };
     let name = file.file_name().unwrap().to_str().unwrap();

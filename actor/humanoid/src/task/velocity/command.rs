@@ -5,8 +5,9 @@ use rand::RngExt;
 use crate::config::VelocityConfig;
 use crate::randomisation::{stream, uniform};
 
-/// Sum of the magnitudes (m/s and rad/s) below which a command says: stand.
-const STANDING_COMMAND: f64 = 0.1;
+/// Norm of the three numbers of a command (m/s, m/s and rad/s) below which it says: stand. Unitree's unitree_rl_mjlab feeds
+/// the gait's phase (0, 0) below the same norm.
+pub const STANDING_COMMAND: f64 = 0.1;
 /// Yaw rate per error of the heading (1/s).
 pub const HEADING_GAIN: f64 = 0.5;
 
@@ -25,7 +26,13 @@ impl Command {
     /// Returns whether the robot is asked to stand.
     #[must_use]
     pub fn stands(&self) -> bool {
-        self.lin_vel_x_mps.hypot(self.lin_vel_y_mps) + self.ang_vel_z_radps.abs() < STANDING_COMMAND
+        self.lin_vel_x_mps.hypot(self.lin_vel_y_mps).hypot(self.ang_vel_z_radps) < STANDING_COMMAND
+    }
+
+    /// Returns the command of these numbers, see [`Self::numbers`].
+    #[must_use]
+    pub fn from_numbers([lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps]: [f64; 3]) -> Self {
+        Self { lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps }
     }
 
     /// Returns forward velocity, velocity to the left and yaw rate.
@@ -44,6 +51,8 @@ pub(super) struct Drawn {
     pub heading_rad: Option<f64>,
     /// Control steps for which it holds.
     pub steps: u32,
+    /// Whether the policy sees no phase of the gait.
+    pub hides_phase: bool,
 }
 
 impl Drawn {
@@ -61,9 +70,11 @@ impl Drawn {
             ang_vel_z_radps: within(config.ang_vel_z_radps),
         };
         let heading_rad = within([-std::f64::consts::PI, std::f64::consts::PI]);
+        // The last one, so that a share of 0 changes no command.
+        let hides_phase = random.random::<f64>() < config.hidden_phase_share;
         match stands {
-            true => Self { command: Command::default(), heading_rad: None, steps },
-            false => Self { command, heading_rad: has_heading.then_some(heading_rad), steps },
+            true => Self { steps, ..Self::default() },
+            false => Self { command, heading_rad: has_heading.then_some(heading_rad), steps, hides_phase },
         }
     }
 
@@ -95,6 +106,14 @@ mod tests {
         }
         assert_eq!(Drawn::new(&config, 0.02, 7, 3), drawn[3], "the same number gives the same command");
         assert_ne!(Drawn::new(&config, 0.02, 8, 3), drawn[3]);
+    }
+
+    #[test]
+    fn a_command_says_stand_below_a_norm_of_a_tenth() {
+        let stands = |x: f64, y, yaw| Command { lin_vel_x_mps: x, lin_vel_y_mps: y, ang_vel_z_radps: yaw }.stands();
+        // √(0.05² + 0.05² + 0.07²) = 0.0995.
+        assert!(stands(0.0, 0.0, 0.0) && stands(-0.05, 0.05, -0.07) && stands(0.0, 0.0, 0.0999));
+        assert!(!stands(0.1, 0.0, 0.0) && !stands(0.06, 0.06, 0.06) && !stands(0.0, 0.0, -0.1));
     }
 
     #[test]

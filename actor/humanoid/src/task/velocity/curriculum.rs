@@ -5,7 +5,7 @@ use rand::RngExt;
 use super::command::Command;
 use crate::config::{EnvironmentConfig, GroundKind};
 use crate::randomisation::stream;
-use crate::task::Difficulty;
+use crate::task::{Difficulty, Reached};
 
 /// Numbers of [`Curriculum::save`].
 pub(super) const CURRICULUM_SAVED: usize = 7 + KINDS_MAX;
@@ -97,8 +97,28 @@ impl Curriculum {
 
     pub(super) fn difficulty(&self) -> Difficulty {
         Difficulty {
+            ground_kind: self.ground.map(|_| self.kind as u32),
             ground_level: self.ground.map(|_| f64::from(self.level())),
             command_factor: self.commands_grow.then_some(self.factor),
+        }
+    }
+
+    /// Begins where other environments of the run are: draws a level for each kind of ground and a factor from theirs.
+    pub(super) fn adopt(&mut self, reached: &Reached<'_>, seed: u64) {
+        let mut random = stream(seed, "curricula");
+        if let Some((LevelChoice::Rising, levels)) = self.ground {
+            for (kind, level) in self.levels.iter_mut().enumerate() {
+                let pairs = reached.ground_kinds.iter().zip(reached.ground_levels);
+                let known: Vec<u32> =
+                    pairs.filter(|(of_kind, _)| **of_kind as usize == kind).map(|(_, level)| *level).collect();
+                if !known.is_empty() {
+                    *level = known[random.random_range(0..known.len())].min(levels - 1);
+                }
+            }
+        }
+        let factors = reached.command_factors;
+        if self.commands_grow && !factors.is_empty() {
+            self.factor = f64::from(factors[random.random_range(0..factors.len())]).clamp(FACTOR_MIN, 1.0);
         }
     }
 
@@ -225,6 +245,35 @@ mod tests {
         rising.count(&command, [1.0, 0.0], 1.0, 10.0, [false, false]);
         rising.begin_episode(3, 0);
         assert_eq!(rising.level(), 0);
+    }
+
+    #[test]
+    fn new_environments_begin_where_others_are() {
+        let reached = Reached {
+            ground_kinds: &[0, 0, 0, 2, 9],
+            ground_levels: &[1, 2, 99, 3, 3],
+            command_factors: &[0.5, 0.75, 7.0],
+        };
+        let (mut levels, mut factors) = (Vec::new(), Vec::new());
+        for seed in 0..100 {
+            let mut rising = curriculum(LevelChoice::Rising, 0);
+            rising.adopt(&reached, seed);
+            assert_eq!(rising.levels[1..3], [0, 3], "of a kind without episodes, and of one");
+            levels.push(rising.levels[0]);
+            factors.push(rising.factor());
+        }
+        for level in [1, 2, 3] {
+            assert!(levels.iter().filter(|found| **found == level).count() > 15, "{levels:?}");
+        }
+        assert!([0.5, 0.75, 1.0].iter().all(|factor| factors.contains(factor)), "{factors:?}");
+        assert!(factors.iter().all(|factor| [0.5, 0.75, 1.0].contains(factor)), "{factors:?}");
+        // Without any, and where levels do not rise, all begins as before.
+        let mut fresh = curriculum(LevelChoice::Rising, 1);
+        fresh.adopt(&Reached::default(), 1);
+        assert_eq!((fresh.level(), fresh.factor()), (1, FACTOR_MIN));
+        let mut fixed = curriculum(LevelChoice::Fixed, 1);
+        fixed.adopt(&reached, 1);
+        assert_eq!(fixed.levels, [1; KINDS_MAX]);
     }
 
     #[test]

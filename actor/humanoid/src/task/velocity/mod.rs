@@ -25,7 +25,7 @@ use std::f64::consts::FRAC_PI_2;
 use rand::RngExt;
 
 use self::command::Drawn;
-pub use self::command::{Command, HEADING_GAIN};
+pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::Layout;
@@ -34,7 +34,7 @@ use self::rewards::pose_weights;
 pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
-use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
+use super::{Difficulty, ObservationTerm, Reached, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -51,6 +51,8 @@ const EDGE_M: f64 = 1.0;
 /// Task of following velocity commands.
 pub struct VelocityTask {
     config: VelocityConfig,
+    /// Whether it is played to learn from.
+    learns: bool,
     weights: RewardsConfig,
     /// The settings with the present ranges of commands.
     commanded: VelocityConfig,
@@ -76,8 +78,9 @@ pub struct VelocityTask {
     drawn: Drawn,
     drawn_left_steps: u32,
     command: Command,
-    /// Command of the last observation, for which the next step is rewarded.
+    /// Command of the last observation, for which the next step is rewarded, and whether it showed the phase.
     observed: Command,
+    saw_phase: bool,
     command_changes: u32,
     episode_steps: u32,
     actions: Vec<f64>,
@@ -146,6 +149,7 @@ impl VelocityTask {
             past: vec![0.0; layout.of_policy()],
             observed_step: None,
             config: velocity.clone(),
+            learns: config.has_curricula,
             weights: config.rewards.clone(),
             step_s: config.env.control_step_s,
             layout,
@@ -159,6 +163,7 @@ impl VelocityTask {
             drawn_left_steps: 0,
             command: Command::default(),
             observed: Command::default(),
+            saw_phase: true,
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
@@ -211,6 +216,12 @@ impl VelocityTask {
         self.drawn_index = index;
         self.drawn = Drawn::new(&self.commanded, self.step_s, self.seed, index);
         self.drawn_left_steps = self.drawn.steps;
+    }
+
+    /// Returns whether the policy sees the phase of the gait.
+    fn shows_phase(&self) -> bool {
+        let hides = self.drawn.hides_phase && self.steered.is_none() && self.learns;
+        !(hides || self.config.gait_rests && self.command.stands())
     }
 
     fn time_s(&self) -> f64 {
@@ -287,6 +298,7 @@ impl Task for VelocityTask {
             base,
             feet: &self.feet,
             hinges,
+            sees_phase: self.saw_phase,
             time_s: self.time_s(),
             step_s,
             has_fallen,
@@ -328,7 +340,7 @@ impl Task for VelocityTask {
         if !is_again {
             seen.rotate_left(width);
         }
-        self.observed = self.command;
+        (self.observed, self.saw_phase) = (self.command, self.shows_phase());
         self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {
@@ -351,11 +363,7 @@ impl Task for VelocityTask {
     }
 
     fn steer(&mut self, command: Option<[f64; 3]>) -> bool {
-        self.steered = command.map(|[lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps]| Command {
-            lin_vel_x_mps,
-            lin_vel_y_mps,
-            ang_vel_z_radps,
-        });
+        self.steered = command.map(Command::from_numbers);
         if let Some(command) = self.steered {
             self.command_changes += u32::from(command != self.command);
             self.command = command;
@@ -369,6 +377,13 @@ impl Task for VelocityTask {
 
     fn difficulty(&self) -> Difficulty {
         self.curriculum.as_ref().map(Curriculum::difficulty).unwrap_or_default()
+    }
+
+    fn adopt_curricula(&mut self, reached: &Reached<'_>, seed: u64) {
+        if let Some(curriculum) = &mut self.curriculum {
+            curriculum.adopt(reached, seed);
+            self.scale_commands();
+        }
     }
 
     fn save(&self) -> Vec<f64> {

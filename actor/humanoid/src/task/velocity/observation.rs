@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::command::STANDING_COMMAND;
 use super::feet::FEET;
 use super::rewards::BaseMotion;
 use super::scan::{SCAN_MAX_M, SCAN_POINTS, ground_around, opposite_point};
@@ -129,10 +130,16 @@ pub const TERMS: &[TermRow] = &[
     }),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
-        let (sin, cos) = (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos();
+        let (sin, cos) = match view.task.shows_phase() {
+            true => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
+            false => (0.0, 0.0),
+        };
         [sin, cos].into_iter().for_each(write);
     })
-    .with_deploy_params(|config| format!("{{period: {:?}}}", config.gait_period_s)),
+    .with_deploy_params(|config| match config.gait_rests {
+        true => format!("{{period: {:?}, command_threshold: {STANDING_COMMAND:?}}}", config.gait_period_s),
+        false => format!("{{period: {:?}}}", config.gait_period_s),
+    }),
     TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, noise, write| {
         view.scanned().for_each(|height_m| write(height_m + noise.position()));
     })

@@ -12,6 +12,8 @@ use crate::physics::Physics;
 const AIR_TIME_S: f64 = 0.4;
 /// Horizontal velocity below which a robot that is commanded to stand puts both feet down (m/s).
 const SLOW_MPS: f64 = 0.3;
+/// Horizontal part of gravity's direction in the frame of the base, below which it does so.
+const UPRIGHT: f64 = 0.1;
 /// Share of a hinge's range, from its middle, beyond which it is near its limit.
 const SOFT_LIMIT_SHARE: f64 = 0.9;
 /// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
@@ -117,6 +119,8 @@ pub struct RobotStep<'a> {
     pub feet: &'a [Foot; FEET],
     /// Hinges at its end.
     pub hinges: HingeMotion<'a>,
+    /// Whether the policy saw the phase of the gait.
+    pub sees_phase: bool,
     /// Time since the episode began (s).
     pub time_s: f64,
     /// Duration of the step (s).
@@ -135,14 +139,19 @@ impl RobotStep<'_> {
         self.feet.iter().enumerate()
     }
 
-    fn stride(&self, foot: usize) -> Stride {
-        stride(self.config, self.time_s, foot, self.feet[foot].rise_m)
+    /// Returns what the gait wants of a foot; `None` if the robot is to move and sees no phase: it steps with either foot.
+    fn stride(&self, foot: usize) -> Option<Stride> {
+        if self.must_rest() {
+            return Some(Stride { stands: true, lift_m: 0.0 });
+        }
+        self.sees_phase.then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
-    /// Returns whether a foot must stand. A robot that is to stop steps until it is slow: feet that stop at once make it
-    /// fall.
-    fn must_stand(&self, foot: usize) -> bool {
-        self.command.stands() && self.base.velocity_mps.xy().norm() < SLOW_MPS || self.stride(foot).stands
+    /// Returns whether the robot must stand still. One that is to stop steps until it is slow and upright: feet that stop at
+    /// once make it fall.
+    fn must_rest(&self) -> bool {
+        let leans = self.base.gravity.xy().norm();
+        self.command.stands() && self.base.velocity_mps.xy().norm() < SLOW_MPS && leans < UPRIGHT
     }
 }
 
@@ -179,8 +188,17 @@ impl RewardFunctions for RobotStep<'_> {
     }
 
     fn gait(&self) -> f64 {
-        let follows = |(foot, sensed): (usize, &Foot)| if sensed.stands == self.must_stand(foot) { 1.0 } else { -1.0 };
-        self.numbered_feet().map(follows).sum::<f64>() / FEET as f64
+        let follows = |(foot, sensed): (usize, &Foot)| {
+            self.stride(foot).map(|wanted| if sensed.stands == wanted.stands { 1.0 } else { -1.0 })
+        };
+        let Some(followed) = self.numbered_feet().map(follows).sum::<Option<f64>>() else {
+            // Whichever foot steps, the other one stands; a robot that is to stop steps as it must.
+            if self.command.stands() {
+                return 0.0;
+            }
+            return if self.feet.iter().filter(|foot| foot.stands).count() == 1 { 1.0 } else { -1.0 };
+        };
+        followed / FEET as f64
     }
 
     fn feet_air_time(&self) -> f64 {
@@ -190,8 +208,8 @@ impl RewardFunctions for RobotStep<'_> {
 
     fn feet_clearance(&self) -> f64 {
         self.numbered_feet()
-            .filter(|(foot, _)| !self.must_stand(*foot))
-            .map(|(index, foot)| foot.lift_m - self.stride(index).lift_m)
+            .filter_map(|(index, foot)| Some((foot, self.stride(index).filter(|wanted| !wanted.stands)?)))
+            .map(|(foot, wanted)| foot.lift_m - wanted.lift_m)
             .filter(|above_m| *above_m < 0.0 || !self.body.may_lift_higher)
             .map(|above_m| above_m.powi(2))
             .sum()
@@ -208,6 +226,10 @@ impl RewardFunctions for RobotStep<'_> {
     fn pose(&self) -> f64 {
         let posture = self.hinges.angles_rad.iter().zip(&self.body.default_rad).zip(&self.body.pose_weights);
         posture.map(|((angle_rad, default_rad), weight)| weight * (angle_rad - default_rad).powi(2)).sum()
+    }
+
+    fn stand_still(&self) -> f64 {
+        if self.must_rest() { self.hinges.rates_radps.iter().map(|rate| rate * rate).sum() } else { 0.0 }
     }
 
     fn action_rate(&self) -> f64 {
@@ -252,130 +274,5 @@ pub(super) fn pose_weights(physics: &Physics) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
-    use super::*;
-    use crate::config::RewardsConfig;
-    use crate::mjcf::HUMANOID_XML;
-
-    fn close(found: f64, expected: f64) {
-        assert!((found - expected).abs() < 1e-9, "{found} instead of {expected}");
-    }
-
-    #[test]
-    fn the_motion_of_a_turned_base_is_seen_in_its_heading_frame() {
-        // Turned left by 90°, moving along the world's y: forwards.
-        let half = FRAC_PI_2 / 2.0;
-        let position = [3.0, 4.0, 0.8, half.cos(), 0.0, 0.0, half.sin()];
-        let base = BaseMotion::new(&position, &[-0.2, 0.7, 0.1, 0.3, 0.4, 0.5], 0.2);
-        close(base.velocity_mps.x, 0.7);
-        close(base.velocity_mps.y, 0.2);
-        close(base.velocity_mps.z, 0.1);
-        close(base.height_m, 0.6);
-        close(base.heading_rad, FRAC_PI_2);
-        close(base.yaw_rate_radps, 0.5);
-        close(base.tilt_rad(), 0.0);
-        // Pitched forwards by 30°: gravity points forwards and down in the base frame.
-        let half = 30.0_f64.to_radians() / 2.0;
-        let base = BaseMotion::new(&[0.0, 0.0, 0.8, half.cos(), 0.0, half.sin(), 0.0], &[0.0; 6], 0.0);
-        close(base.gravity.x, 0.5);
-        close(base.gravity.z, -(0.75_f64.sqrt()));
-        close(base.tilt_rad(), 30.0_f64.to_radians());
-    }
-
-    #[test]
-    fn each_term_equals_its_value_by_hand() {
-        let mut model = Model::from_mjcf(HUMANOID_XML).unwrap();
-        model.hinges.truncate(2);
-        (model.hinges[0].min_rad, model.hinges[0].max_rad) = (-1.0, 1.0);
-        (model.hinges[1].min_rad, model.hinges[1].max_rad) = (f64::NEG_INFINITY, f64::INFINITY);
-        let config = VelocityConfig {
-            gait_period_s: 1.0,
-            stance_share: 0.6,
-            tracking_variance: 0.25,
-            ..VelocityConfig::default()
-        };
-        let body =
-            Stance { default_rad: vec![0.5, 0.0], pose_weights: vec![1.0, 0.1], height_m: 0.8, may_lift_higher: false };
-        let command = Command { lin_vel_x_mps: 0.5, lin_vel_y_mps: 0.0, ang_vel_z_radps: 0.2 };
-        let base = BaseMotion {
-            height_m: 0.7,
-            velocity_mps: Vector3::new(0.2, 0.4, 0.3),
-            angular_radps: Vector3::new(1.0, 2.0, 3.0),
-            yaw_rate_radps: 0.7,
-            heading_rad: 1.0,
-            gravity: Vector3::new(0.6, 0.0, -0.8),
-        };
-        // At 0.8 s the left foot is highest and the right one stands.
-        let left = Foot { lift_m: 0.03, ..Foot::default() };
-        let right = Foot {
-            stands: true,
-            velocity_mps: Vector3::new(0.3, 0.4, 9.0),
-            landed_after_s: 0.5,
-            landing_mps: 0.2,
-            ..Foot::default()
-        };
-        let hinges = HingeMotion {
-            angles_rad: &[0.95, 2.0],
-            rates_radps: &[1.0, -1.0],
-            rates_before_radps: &[0.0, 1.0],
-            torques_nm: &[3.0, -4.0],
-            actions: [&[1.0, -2.0], &[0.5, 0.0]],
-        };
-        let feet = [left, right];
-        let step = RobotStep {
-            config: &config,
-            model: &model,
-            body: &body,
-            command,
-            base,
-            feet: &feet,
-            hinges,
-            time_s: 0.8,
-            step_s: 0.02,
-            has_fallen: false,
-        };
-        let expected = [
-            ("track_linear_velocity", (-0.25_f64 / 0.25).exp()),
-            ("track_yaw_rate", (-1.0_f64).exp()),
-            ("alive", 1.0),
-            ("upright", 0.36),
-            ("base_height", 0.01),
-            ("vertical_velocity", 0.09),
-            ("roll_pitch_rate", 5.0),
-            ("gait", 1.0),
-            ("feet_air_time", 0.1),
-            ("feet_clearance", 0.0025),
-            ("feet_slip", 0.25),
-            ("landing", 0.04),
-            ("pose", 0.2025 + 0.4),
-            ("action_rate", 0.25 + 4.0),
-            ("joint_torque", 25.0),
-            ("joint_acceleration", 2500.0 + 10_000.0),
-            ("joint_limits", 0.05),
-        ];
-        for ((found, name), (expected_name, expected)) in
-            step.values().into_iter().zip(RewardsConfig::NAMES).zip(expected)
-        {
-            assert_eq!(name, expected_name);
-            assert!((found - expected).abs() < 1e-9, "{name}: {found} instead of {expected}");
-        }
-        assert_eq!(RobotStep { has_fallen: true, ..step }.alive(), 0.0);
-
-        let climbing = Stance { may_lift_higher: true, ..body.clone() };
-        for (lift_m, flat, of_ground) in [(0.03, 0.0025, 0.0025), (0.13, 0.0025, 0.0)] {
-            let feet = [Foot { lift_m, ..left }, right];
-            let step = RobotStep { feet: &feet, ..step };
-            close(step.feet_clearance(), flat);
-            close(RobotStep { body: &climbing, ..step }.feet_clearance(), of_ground);
-        }
-
-        let standing = RobotStep { command: Command::default(), ..step };
-        assert_eq!((standing.gait(), standing.feet_air_time()), (1.0, 0.0), "at 0.45 m/s the gait goes on");
-        close(standing.feet_clearance(), 0.0025);
-        let slow = BaseMotion { velocity_mps: Vector3::new(0.1, 0.2, 0.3), ..base };
-        let slow = RobotStep { base: slow, ..standing };
-        assert_eq!((slow.gait(), slow.feet_clearance(), slow.feet_air_time()), (0.0, 0.0, 0.0), "both feet must stand");
-    }
-}
+#[path = "rewards_tests.rs"]
+mod tests;
