@@ -10,7 +10,7 @@ use treadmill_ppo::settings;
 use treadmill_proto::Task;
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds};
 
-use crate::launch::{exit_code::Usage, run_args::AnyRunArgs, warm_start::InitFrom};
+use crate::launch::{exit_code::Usage, resume_line, run_args::AnyRunArgs, warm_start::InitFrom};
 
 /// Result of preparing a run.
 pub enum Start {
@@ -90,7 +90,7 @@ pub struct RunSetup {
 impl RunSetup {
     /// Returns the command that resumes this run.
     pub fn resume_command(&self, command: &str) -> String {
-        crate::launch::resume_line::of_this_process(command, &self.folder, self.store.as_deref())
+        resume_line::of_this_process(command, &self.folder, self.store.as_deref())
     }
 
     /// Sets the external task of a new run, and returns its first state, with the policy of `init_from`.
@@ -116,7 +116,7 @@ pub fn check_not_stored(folder: &RunFolder) -> Result<(), Usage> {
         true => Err(Usage(format!(
             "the state of the run in `{}` is in a store; continue it with `{}`",
             folder.root().display(),
-            crate::launch::resume_line::of_folder(folder)
+            resume_line::of_folder(folder)
         ))),
         false => Ok(()),
     }

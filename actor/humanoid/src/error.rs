@@ -20,7 +20,7 @@ pub enum ModelError {
         problem: String,
     },
     /// A policy was trained with another body.
-    #[error("the policy was trained with another body: {0}")]
+    #[error("the policy was trained with another body: {0}; give a model of the same robot")]
     OtherBody(String),
     /// An attribute is unreadable, or asks for physics that is not simulated.
     #[error("model element `{element}`: `{attribute}` is \"{value}\", but must be {expected}")]

@@ -54,8 +54,7 @@ fn outputs(policy: &Policy, observations: &[f32]) -> [Vec<f32>; 2] {
 fn assert_near(found: &[f32], expected: &[f32]) {
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
-        // Sums of terms of about 1 in another order.
-        assert!((found - expected).abs() < 1e-6 * (1.0 + expected.abs()), "{found} {expected}");
+        assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{found} {expected}");
     }
 }
 
@@ -66,7 +65,8 @@ proptest! {
         (rows, seed) in (1_usize..7, 0_u64..1000),
     ) {
         let networks = networks(&hidden);
-        let parameters: Vec<f32> = normals(networks.parameter_count(), seed).iter().map(|p| 0.3 * p).collect();
+        // Sums that stay about 1 differ by less than 1e-6 in single precision.
+        let parameters: Vec<f32> = normals(networks.parameter_count(), seed).iter().map(|p| 0.2 * p).collect();
         let observations = normals(rows * 10, seed + 1000);
         let policy = Policy::new(networks.clone(), parameters.clone()).expect("they fit");
         let [means, values] = outputs(&policy, &observations);

@@ -89,6 +89,16 @@ fn losses(updater: &Updater, batch: &Batch) -> ([f64; 2], Vec<f32>) {
     ([loss.policy, loss.value].map(|sum| sum / rows.len() as f64), gradient)
 }
 
+/// Returns the divergence of one policy from another over all rows of a batch.
+fn exact_divergence(before: &Policy, after: &Policy, batch: &Batch) -> f64 {
+    let means = |policy: &Policy| {
+        let mut means = vec![0.0; batch.actions.len()];
+        policy.means(&batch.observations, batch.len(), &mut means).expect("candle runs");
+        means
+    };
+    kl_divergence(&means(before), before.log_std(), &means(after), after.log_std())
+}
+
 /// Asserts that only the random streams may differ.
 #[track_caller]
 fn assert_same(a: &Updater, b: &Updater) {
@@ -271,12 +281,7 @@ fn the_divergence_is_that_after_the_last_step() {
     let stats = updater.update(&batch, 9).expect("a sound batch");
     assert_eq!(stats.gradient_steps, 1);
     let after = updater.policy();
-    let means = |policy: &Policy| {
-        let mut means = vec![0.0; 1200];
-        policy.means(&batch.observations, 600, &mut means).expect("candle runs");
-        means
-    };
-    let expected = kl_divergence(&means(&before), before.log_std(), &means(&after), after.log_std());
+    let expected = exact_divergence(&before, &after, &batch);
     assert!(expected > 2.0 * config.target_kl, "{expected}");
     assert!((stats.approx_kl - expected).abs() < 1e-3 * expected, "{} {expected}", stats.approx_kl);
     // The step was too large.
@@ -295,12 +300,7 @@ fn passes_that_lead_too_far_are_undone() {
     assert!((1..8).contains(&stats.undone_passes), "{stats:?}");
     assert!(stats.approx_kl > 0.0 && stats.approx_kl <= 0.08, "{stats:?}");
     let after = updater.policy();
-    let means = |policy: &Policy| {
-        let mut means = vec![0.0; 1200];
-        policy.means(&batch.observations, 600, &mut means).expect("candle runs");
-        means
-    };
-    let exact = kl_divergence(&means(&before), before.log_std(), &means(&after), after.log_std());
+    let exact = exact_divergence(&before, &after, &batch);
     assert!((stats.approx_kl / exact - 1.0).abs() < 1e-3, "{} {exact}", stats.approx_kl);
     assert!(stats.learning_rate <= 0.3 / 4.0_f64.powi(stats.undone_passes as i32) * 1.5_f64.powi(8), "{stats:?}");
     // Steps that were taken back are not counted by the optimiser.

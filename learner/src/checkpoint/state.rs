@@ -11,7 +11,7 @@ use treadmill_ppo::{
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
-use super::EpisodeWindow;
+use super::{EpisodeWindow, curricula::Curricula};
 use crate::intake::FragmentCounts;
 
 /// Whole state of a run. Adding or removing a field requires a new [`super::encoding::FORMAT`].
@@ -34,7 +34,7 @@ pub struct TrainingState {
     /// Last finished episodes.
     pub episodes: EpisodeWindow,
     /// Curricula that environments have reached.
-    pub curricula: super::curricula::Curricula,
+    pub curricula: Curricula,
     /// Counters of the run.
     pub counters: Counters,
     /// Best mean return so far.
@@ -132,7 +132,7 @@ impl TrainingState {
             ledger: Ledger::default(),
             fragment_counts: FragmentCounts::default(),
             episodes: EpisodeWindow::default(),
-            curricula: super::curricula::Curricula::default(),
+            curricula: Curricula::default(),
             counters: Counters::default(),
             best_return: None,
             best_is_evaluated: false,

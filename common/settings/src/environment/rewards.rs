@@ -54,8 +54,8 @@ rewards! {
     vertical_velocity = -0.5;
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate = -0.05;
-    /// Share of the feet that stand or swing as the gait says, less the share of the others. Without a phase, a robot that
-    /// walks earns 1 on one foot and -1 on none or both; one that is to stop earns nothing until it is slow and upright.
+    /// Share of the feet that stand or swing as the gait says, less the share of the others. With `velocity.gait_rests`, a
+    /// robot that is to stop earns nothing until it is slow and upright.
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;

@@ -29,6 +29,11 @@ impl Command {
         self.lin_vel_x_mps.hypot(self.lin_vel_y_mps).hypot(self.ang_vel_z_radps) < STANDING_COMMAND
     }
 
+    /// Returns whether the policy sees no phase of the gait under it.
+    pub(super) fn hides_phase(&self, config: &VelocityConfig) -> bool {
+        config.gait_rests && self.stands()
+    }
+
     /// Returns the command of these numbers, see [`Self::numbers`].
     #[must_use]
     pub fn from_numbers([lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps]: [f64; 3]) -> Self {
@@ -51,8 +56,6 @@ pub(super) struct Drawn {
     pub heading_rad: Option<f64>,
     /// Control steps for which it holds.
     pub steps: u32,
-    /// Whether the policy sees no phase of the gait.
-    pub hides_phase: bool,
 }
 
 impl Drawn {
@@ -70,11 +73,9 @@ impl Drawn {
             ang_vel_z_radps: within(config.ang_vel_z_radps),
         };
         let heading_rad = within([-std::f64::consts::PI, std::f64::consts::PI]);
-        // The last one, so that a share of 0 changes no command.
-        let hides_phase = random.random::<f64>() < config.hidden_phase_share;
         match stands {
-            true => Self { steps, ..Self::default() },
-            false => Self { command, heading_rad: has_heading.then_some(heading_rad), steps, hides_phase },
+            true => Self { command: Command::default(), heading_rad: None, steps },
+            false => Self { command, heading_rad: has_heading.then_some(heading_rad), steps },
         }
     }
 

@@ -51,8 +51,6 @@ const EDGE_M: f64 = 1.0;
 /// Task of following velocity commands.
 pub struct VelocityTask {
     config: VelocityConfig,
-    /// Whether it is played to learn from.
-    learns: bool,
     weights: RewardsConfig,
     /// The settings with the present ranges of commands.
     commanded: VelocityConfig,
@@ -78,9 +76,8 @@ pub struct VelocityTask {
     drawn: Drawn,
     drawn_left_steps: u32,
     command: Command,
-    /// Command of the last observation, for which the next step is rewarded, and whether it showed the phase.
+    /// Command of the last observation, for which the next step is rewarded.
     observed: Command,
-    saw_phase: bool,
     command_changes: u32,
     episode_steps: u32,
     actions: Vec<f64>,
@@ -149,7 +146,6 @@ impl VelocityTask {
             past: vec![0.0; layout.of_policy()],
             observed_step: None,
             config: velocity.clone(),
-            learns: config.has_curricula,
             weights: config.rewards.clone(),
             step_s: config.env.control_step_s,
             layout,
@@ -163,7 +159,6 @@ impl VelocityTask {
             drawn_left_steps: 0,
             command: Command::default(),
             observed: Command::default(),
-            saw_phase: true,
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
@@ -216,12 +211,6 @@ impl VelocityTask {
         self.drawn_index = index;
         self.drawn = Drawn::new(&self.commanded, self.step_s, self.seed, index);
         self.drawn_left_steps = self.drawn.steps;
-    }
-
-    /// Returns whether the policy sees the phase of the gait.
-    fn shows_phase(&self) -> bool {
-        let hides = self.drawn.hides_phase && self.steered.is_none() && self.learns;
-        !(hides || self.config.gait_rests && self.command.stands())
     }
 
     fn time_s(&self) -> f64 {
@@ -298,7 +287,6 @@ impl Task for VelocityTask {
             base,
             feet: &self.feet,
             hinges,
-            sees_phase: self.saw_phase,
             time_s: self.time_s(),
             step_s,
             has_fallen,
@@ -340,7 +328,7 @@ impl Task for VelocityTask {
         if !is_again {
             seen.rotate_left(width);
         }
-        (self.observed, self.saw_phase) = (self.command, self.shows_phase());
+        self.observed = self.command;
         self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {

@@ -130,9 +130,10 @@ pub const TERMS: &[TermRow] = &[
     }),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
-        let (sin, cos) = match view.task.shows_phase() {
-            true => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
-            false => (0.0, 0.0),
+        let VelocityTask { config, command, .. } = view.task;
+        let (sin, cos) = match command.hides_phase(config) {
+            true => (0.0, 0.0),
+            false => (TAU * view.task.time_s() / config.gait_period_s).sin_cos(),
         };
         [sin, cos].into_iter().for_each(write);
     })

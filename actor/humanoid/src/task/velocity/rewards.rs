@@ -119,8 +119,6 @@ pub struct RobotStep<'a> {
     pub feet: &'a [Foot; FEET],
     /// Hinges at its end.
     pub hinges: HingeMotion<'a>,
-    /// Whether the policy saw the phase of the gait.
-    pub sees_phase: bool,
     /// Time since the episode began (s).
     pub time_s: f64,
     /// Duration of the step (s).
@@ -139,12 +137,13 @@ impl RobotStep<'_> {
         self.feet.iter().enumerate()
     }
 
-    /// Returns what the gait wants of a foot; `None` if the robot is to move and sees no phase: it steps with either foot.
+    /// Returns what the gait wants of a foot; `None` if the robot is to stop and sees no phase: it steps as it must.
     fn stride(&self, foot: usize) -> Option<Stride> {
         if self.must_rest() {
             return Some(Stride { stands: true, lift_m: 0.0 });
         }
-        self.sees_phase.then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
+        let hides_phase = self.command.hides_phase(self.config);
+        (!hides_phase).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
     /// Returns whether the robot must stand still. One that is to stop steps until it is slow and upright: feet that stop at
@@ -191,14 +190,7 @@ impl RewardFunctions for RobotStep<'_> {
         let follows = |(foot, sensed): (usize, &Foot)| {
             self.stride(foot).map(|wanted| if sensed.stands == wanted.stands { 1.0 } else { -1.0 })
         };
-        let Some(followed) = self.numbered_feet().map(follows).sum::<Option<f64>>() else {
-            // Whichever foot steps, the other one stands; a robot that is to stop steps as it must.
-            if self.command.stands() {
-                return 0.0;
-            }
-            return if self.feet.iter().filter(|foot| foot.stands).count() == 1 { 1.0 } else { -1.0 };
-        };
-        followed / FEET as f64
+        self.numbered_feet().filter_map(follows).sum::<f64>() / FEET as f64
     }
 
     fn feet_air_time(&self) -> f64 {

@@ -75,7 +75,6 @@ fn each_term_equals_its_value_by_hand() {
         base,
         feet: &feet,
         hinges,
-        sees_phase: true,
         time_s: 0.8,
         step_s: 0.02,
         has_fallen: false,
@@ -118,12 +117,10 @@ fn each_term_equals_its_value_by_hand() {
     let standing = RobotStep { command: Command::default(), ..step };
     assert_eq!((standing.gait(), standing.feet_air_time()), (1.0, 0.0), "at 0.45 m/s the gait goes on");
     close(standing.feet_clearance(), 0.0025);
-    let resting = RobotStep { sees_phase: false, ..standing };
+    let config = VelocityConfig { gait_rests: true, ..config.clone() };
+    let resting = RobotStep { config: &config, ..standing };
     assert_eq!((resting.gait(), resting.feet_clearance()), (0.0, 0.0), "it stops as it must");
-    let walking = RobotStep { command, ..resting };
-    assert_eq!((walking.gait(), walking.feet_clearance()), (1.0, 0.0), "one foot stands, whichever it is");
-    let both = [Foot { stands: true, ..left }, right];
-    assert_eq!(RobotStep { feet: &both, ..walking }.gait(), -1.0);
+    close(RobotStep { command, ..resting }.gait(), step.gait());
     let velocity_mps = Vector3::new(0.1, 0.1, 0.3);
     let leaning = RobotStep { base: BaseMotion { velocity_mps, ..base }, ..standing };
     assert_eq!(leaning.stand_still(), 0.0, "so does that of a robot that leans");
