@@ -32,8 +32,13 @@ pub fn of_this_process(command: &str, folder: &RunFolder, store: Option<&str>) -
 pub fn of_folder(folder: &RunFolder) -> String {
     let text = |path| fs::read_to_string(path).unwrap_or_default();
     let written = text(folder.resume());
-    if !written.trim().is_empty() {
-        return written.trim().to_string();
+    if let Some(mut words) = shlex::split(&written).filter(|words| !words.is_empty()) {
+        // The folder may have been moved since.
+        let flag = words.iter().position(|word| word == "--resume" || word == "--run-dir");
+        if let Some(root) = flag.and_then(|flag| words.get_mut(flag + 1)) {
+            *root = folder.root().display().to_string();
+        }
+        return words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
     }
     // An older version wrote the folder.
     let config: toml::Table = text(folder.config()).parse().unwrap_or_default();

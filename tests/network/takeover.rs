@@ -243,7 +243,7 @@ fn a_run_in_a_store_is_begun_only_once() {
     assert!(further.status.success(), "{}", stderr(&further));
     assert!(last_json(&further)["env_steps"].as_u64() >= Some(4096));
     // The folders have no checkpoints.
-    let further = format!("treadmill train --store {url} --resume-or-start");
+    let further = format!("treadmill train --store {url} --run-dir first --resume-or-start");
     let train = |args: &[&str]| run(folder.path(), &[&["train", "--preset", "smoke"], args].concat());
     assert_refused(&train(&["--run-dir", "first"]), 2, &[&further]);
     assert_refused(&run(folder.path(), &["train", "--resume", "first"]), 2, &[&further]);
