@@ -1,7 +1,7 @@
 #!/bin/bash
 # Health check of a container; exits with 0 if its part of Treadmill is healthy.
 #
-#   treadmill-health trains     learner: /healthz reports progress
+#   treadmill-health trains     learner: /livez reports progress
 #   treadmill-health listens    router: it listens and accepts connections
 #   treadmill-health dials      actor or evaluator: its connection is established
 #
@@ -11,7 +11,7 @@ set -eu
 case ${1:-} in
 trains)
     exec 3<>/dev/tcp/127.0.0.1/9464
-    printf 'GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n' >&3
+    printf 'GET /livez HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n' >&3
     read -r -t 4 status <&3
     [[ $status == *" 200 "* ]]
     ;;

@@ -1,6 +1,6 @@
 //! `treadmill router`: forwards messages at a site with many machines, and hands out policies to the actors behind it.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
@@ -12,7 +12,7 @@ use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     diagnosis::certificates,
-    launch::{async_runtime, memory, output::say, restart::restart, router_session, signals},
+    launch::{async_runtime, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, restart::restart, router_session, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -27,6 +27,8 @@ pub struct RouterArgs {
     connect: Vec<String>,
     #[command(flatten)]
     network: NetworkArgs,
+    #[command(flatten)]
+    page: PageArgs,
     /// Silence of a learner after which the router starts anew (s).
     #[arg(
         long, hide = true, default_value_t = PATIENCE_S,
@@ -49,6 +51,7 @@ const PAUSE: Duration = Duration::from_secs(2);
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.listening_options(Role::Router, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
+    let page = args.page.listen()?;
     memory::use_one_arena();
     if options.credentials.is_some() {
         treadmill_bus::workarounds::one_core::keep_to_one_core();
@@ -60,6 +63,11 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         say(&format!("listening {}", endpoints.join(", ")));
         if !options.connect.is_empty() {
             say(&format!("dialling  {}, again after each loss", options.connect.join(", ")));
+        }
+        bus.log_links(shutdown.clone())?;
+        let page = page.map(|page| page.serve(Arc::new(LinkPage::of(&bus, &options.connect)))).transpose()?;
+        if let Some(address) = page {
+            say(&format!("metrics   http://{address}/metrics"));
         }
         let cache = PolicyCache::open(&bus)?;
         let silent = tokio::select! {
@@ -76,6 +84,7 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         let patience_s = if has_answers { PATIENCE_S } else { (2 * args.patience_s).min(PATIENCE_MAX_S) };
         let values = [
             ("--listen", endpoints),
+            ("--prometheus", page.iter().map(ToString::to_string).collect()),
             ("--patience-s", vec![patience_s.to_string()]),
             ("--expects-answers", vec![(args.expects_answers | has_answers).to_string()]),
         ];

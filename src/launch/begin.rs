@@ -64,6 +64,9 @@ fn begin_built_in(
         text = from.in_its_order(&text, file)?.into();
     }
     let environment = model::environment(launcher.tasks, &config, &text, file)?;
+    if let Some(file) = file {
+        model::examine(launcher.tasks, &config, &text, file)?;
+    }
     let networks = model::networks(&config, &environment)?;
     settings::choose(&mut config.ppo, &networks);
     if launcher.command == RunCommand::Train {

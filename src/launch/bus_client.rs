@@ -9,7 +9,7 @@ use treadmill_bus::{Bus, BusOptions, Role};
 use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
-use super::{async_runtime, exit_code::Usage, memory, signals};
+use super::{async_runtime, exit_code::Usage, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, signals};
 use crate::{
     diagnosis::{Silence, certificates},
     shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
@@ -32,6 +32,8 @@ pub struct ClientArgs {
     /// Unique name of this process; by default made from the host's name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
+    #[command(flatten)]
+    page: PageArgs,
     /// Exit when standard input closes, which happens when the parent process ends.
     #[arg(long, hide = true)]
     pub until_stdin_closes: bool,
@@ -88,6 +90,8 @@ pub fn with_session<W: Future<Output = Result<Next, ActorError>>>(
     let run = client.run.clone();
     let mut bus_options = network.options(role, Vec::new(), client.endpoints(network))?;
     certificates::check_own(bus_options.credentials.as_ref())?;
+    let page = Arc::new(LinkPage::dialling(run.as_deref().unwrap_or_default(), &bus_options.connect));
+    let listener = client.page.listen()?;
     memory::use_one_arena();
     async_runtime::run(async {
         let shutdown = Shutdown::default();
@@ -95,9 +99,13 @@ pub fn with_session<W: Future<Output = Result<Next, ActorError>>>(
         if client.until_stdin_closes {
             stop_when_stdin_closes(shutdown.clone())?;
         }
+        if let Some(listener) = listener {
+            say(&format!("metrics   http://{}/metrics", listener.serve(page.clone())?));
+        }
         loop {
             let where_to = network.where_to(&bus_options.connect);
             let Some(bus) = dial(&bus_options, run.as_deref(), &where_to, &shutdown).await? else { return Ok(()) };
+            page.set(&bus);
             let outcome = work(bus.clone(), shutdown.clone()).await;
             bus.close();
             match outcome? {

@@ -23,6 +23,7 @@ pub mod exit_code;
 pub(crate) mod external_task;
 pub(crate) mod familiar_flags;
 pub(crate) mod host;
+pub mod link_page;
 pub mod log;
 pub mod memory;
 pub(crate) mod metrics_page;

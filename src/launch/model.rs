@@ -7,7 +7,7 @@ use std::{
 
 use clap::Args;
 use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
-use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, TaskRegistry, mjcf, read_model_file};
+use treadmill_humanoid::{Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry, mjcf, read_model_file};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
 use treadmill_runtime::{error_chain, words::nearest_path};
@@ -98,6 +98,19 @@ pub fn environment(
         check_height(&config.env, environment.nominal_position()[2], path)?;
     }
     Ok(environment)
+}
+
+/// Examines the pose in which a robot from `file` starts, and warns of what is unusual.
+///
+/// # Errors
+/// All faults with which a training would learn nothing.
+pub fn examine(tasks: &TaskRegistry, config: &Config, text: &str, file: &Path) -> Result<(), Usage> {
+    let found = HomePose::of(&config.environment(), text, tasks).map_err(|why| in_file(Some(file), &why))?;
+    found.warnings.iter().for_each(|what| tracing::warn!("{}: {what}", file.display()));
+    if found.faults.is_empty() {
+        return Ok(());
+    }
+    Err(Usage(format!("model file `{}`: {}", file.display(), found.faults.join("; "))))
 }
 
 /// Returns the motor names, one for each entry of an action; empty without a model.

@@ -9,7 +9,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::launch::output::say_error;
 
 /// Time after which the first notice is printed.
 const FIRST_AFTER: Duration = Duration::from_secs(2);
@@ -26,7 +25,7 @@ pub struct SlowStepNotice {
 impl SlowStepNotice {
     /// Begins a step. `what` describes it, for instance "loading the checkpoint".
     pub fn begin(what: impl Into<String>) -> Self {
-        Self::with_output(what.into(), [FIRST_AFTER, EVERY], say_error)
+        Self::with_output(what.into(), [FIRST_AFTER, EVERY], |notice| tracing::warn!("{notice}"))
     }
 
     /// Changes the description of the step.

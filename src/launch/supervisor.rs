@@ -17,7 +17,6 @@ use tokio::{
 };
 use treadmill_runtime::shutdown::Shutdown;
 
-use crate::launch::output::say_error;
 
 /// A process that ends sooner than this counts as a failed start.
 const FAILED_START: Duration = Duration::from_secs(5);
@@ -77,7 +76,7 @@ impl Supervisor {
             tasks.spawn(async move {
                 // Training continues without evaluation, so a failure is only reported.
                 if let Err(why) = keep_alive(&fleet, Role::Evaluator, &AtomicU64::new(0), &stopping).await {
-                    say_error(&format!("policies are no longer evaluated: {why:#}"));
+                    tracing::warn!("policies are no longer evaluated: {why:#}");
                 }
                 Ok(())
             });
@@ -136,7 +135,7 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
             );
         }
         restarts.fetch_add(1, Ordering::Relaxed);
-        say_error(&format!("{role} {ended}; starting it again"));
+        tracing::warn!("{role} {ended}; starting it again");
         let pause = (Duration::from_millis(100) * 2u32.saturating_pow(failed_starts)).min(BACKOFF_MAX);
         tokio::select! {
             () = tokio::time::sleep(pause) => {}

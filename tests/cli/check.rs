@@ -51,11 +51,6 @@ fn check_after(folder: &Path, wrapper: &[&str], before: &str, args: &str) -> Out
     Command::new(words[0]).args(&words[1..]).current_dir(folder).output().expect("a shell")
 }
 
-/// Returns whether a command succeeds.
-fn works(program: &str, args: &[&str]) -> bool {
-    Command::new(program).args(args).output().is_ok_and(|tried| tried.status.success())
-}
-
 #[test]
 fn a_healthy_machine_has_no_problems_in_json_and_in_text() {
     let (folder, _) = folders();

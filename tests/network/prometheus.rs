@@ -11,14 +11,14 @@ use std::{
 use crate::support::*;
 use treadmill_learner::metrics::{
     catalogue::{METRICS, MetricSource},
-    prometheus::gauge,
+    prometheus,
 };
 
 /// Sends a request, and returns status and body.
 fn ask(address: &str, method: &str, path: &str) -> Option<(u16, String)> {
     let mut stream = TcpStream::connect(address).ok()?;
     stream.set_read_timeout(Some(TIMEOUT)).expect("a timeout is set");
-    write!(stream, "{method} {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").ok()?;
+    write!(stream, "{method} {path} HTTP/1.0\r\nHost: {address}\r\n\r\n").ok()?;
     let mut answer = String::new();
     stream.read_to_string(&mut answer).ok()?;
     let (head, body) = answer.split_once("\r\n\r\n")?;
@@ -38,13 +38,13 @@ fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
     (training, address.to_string())
 }
 
-/// Returns the names of the gauges on a page.
-fn gauges(page: &str) -> BTreeSet<String> {
-    let type_line = |line: &str| line.strip_prefix("# TYPE ")?.strip_suffix(" gauge").map(str::to_string);
+/// Returns the names of the metrics on a page.
+fn names_on(page: &str) -> BTreeSet<String> {
+    let type_line = |line: &str| line.strip_prefix("# TYPE ")?.split_once(' ').map(|(name, _)| name.to_string());
     page.lines().filter_map(type_line).collect()
 }
 
-/// Returns all words of `text` that look like the name of a gauge.
+/// Returns all words of `text` that look like the name of a metric.
 fn names_in(text: &str) -> BTreeSet<String> {
     let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     let words = text.split(|c: char| !is_part(c)).filter(|word| word.starts_with("treadmill_"));
@@ -53,8 +53,8 @@ fn names_in(text: &str) -> BTreeSet<String> {
 
 /// Metrics that only runs of the velocity task log.
 const OF_COMMANDED_TASKS: [&str; 4] = [
-    "treadmill_eval_velocity_error",
-    "treadmill_eval_yaw_rate_error",
+    "treadmill_eval_velocity_error_meters_per_second",
+    "treadmill_eval_yaw_rate_error_radians_per_second",
     "treadmill_rollout_command_factor",
     "treadmill_rollout_ground_level",
 ];
@@ -74,19 +74,19 @@ fn the_page_has_every_metric_that_is_logged_documented_or_queried() {
         let is_full = ["treadmill_eval_mean_reward{", "treadmill_rollout_ep_rew_mean{", "treadmill_actor_policy_lag{"];
         is_full.iter().all(|part| page.contains(part)).then_some(page)
     });
-    let exported = gauges(&page);
+    let exported = names_on(&page);
 
-    let row = page.lines().find(|line| line.starts_with("treadmill_time_total_timesteps{")).expect("the row");
+    let row = page.lines().find(|line| line.starts_with("treadmill_time_timesteps_total{")).expect("the row");
     let (labels, value) = row.rsplit_once(' ').expect("a value");
-    assert_eq!(labels, "treadmill_time_total_timesteps{run=\"run\"}");
+    assert_eq!(labels, "treadmill_time_timesteps_total{run=\"run\"}");
     let value: f64 = value.parse().expect("a number");
     let step =
         await_that("the same in the log", || metrics(&run).into_iter().find(|(_, step, _)| *step as f64 == value));
     assert!(step.1 > 0);
 
-    // The page's gauges are those of the table, each with its help.
+    // The page's metrics are those of the table, each with its help.
     let rows = METRICS.iter().filter(|row| !matches!(row.source, MetricSource::Term | MetricSource::Histogram));
-    let mut documented: BTreeSet<String> = rows.map(|row| gauge(row.tag)).collect();
+    let mut documented: BTreeSet<String> = rows.map(|row| prometheus::name(row.tag)).collect();
     for name in OF_COMMANDED_TASKS {
         assert!(documented.remove(name), "{name} is not documented");
     }
@@ -139,7 +139,116 @@ fn slow_clients_delay_neither_others_nor_training() {
     assert_eq!(get(&address, "/").map(|(status, _)| status), Some(404));
     // An overlong request is cut off, and the next one is answered.
     let _ = get(&address, &format!("/{}", "x".repeat(1_000_000)));
-    assert_eq!(get(&address, "/healthz").map(|(status, _)| status), Some(200));
+    assert_eq!(get(&address, "/livez").map(|(status, _)| status), Some(200));
+}
+
+#[test]
+fn the_health_of_each_process_names_what_it_lacks() {
+    let (folder, run) = folders();
+    let page = |process: &Running, line: &str| {
+        let line = process.wait_for(line);
+        line.split("http://").nth(1).and_then(|rest| rest.strip_suffix("/metrics")).expect("an address").to_string()
+    };
+    let with_page = ["--prometheus", "127.0.0.1:0"];
+    let learner = start_endless(folder.path(), &run, "learner", &with_page);
+    let of_learner = page(&learner, "  metrics   ");
+    let answers = |address: &str, path: &str, wanted: &(u16, &str)| {
+        await_that(&format!("{wanted:?} of {path}"), || {
+            get(address, path).filter(|(status, text)| *status == wanted.0 && text.starts_with(wanted.1))
+        });
+    };
+    answers(&of_learner, "/healthz", &(503, "no actors are connected"));
+    answers(&of_learner, "/livez", &(200, "ok"));
+    let router_args = ["router", "--listen", "tcp/127.0.0.1:0", "--connect", &endpoint(&run)];
+    let router = start(folder.path(), &[&router_args[..], &with_page].concat());
+    let listening = router.wait_for("listening ");
+    let of_router = page(&router, "metrics   ");
+    let actor_args = ["actor", "--envs", "2", "--connect", listening.split(' ').nth(1).expect("an endpoint")];
+    let actor = start(folder.path(), &[&actor_args[..], &with_page].concat());
+    let of_actor = page(&actor, "metrics   ");
+    for address in [&of_learner, &of_router, &of_actor] {
+        answers(address, "/healthz", &(200, "ok"));
+        answers(address, "/metrics", &(200, "# HELP treadmill_"));
+    }
+    learner.signal(libc::SIGKILL);
+    answers(&of_router, "/healthz", &(503, "no link to tcp/"));
+    answers(&of_router, "/livez", &(200, "ok"));
+    drop(router);
+    answers(&of_actor, "/healthz", &(503, "no link to tcp/"));
+}
+
+/// Finds a program of Prometheus, on the path or unpacked; skips the test where it is missing.
+fn tool(name: &str) -> Option<String> {
+    let program = std::env::var(format!("TREADMILL_{}", name.to_uppercase())).unwrap_or_else(|_| name.to_string());
+    if works(&program, &["--version"]) {
+        return Some(program);
+    }
+    skip(&format!("{name} is not installed"));
+    None
+}
+
+#[test]
+fn names_and_types_follow_the_conventions() {
+    let Some(promtool) = tool("promtool") else { return };
+    let (folder, run) = folders();
+    let (_training, address) = train(folder.path(), &run, &[]);
+    let page = await_that("a page with an actor", || {
+        get(&address, "/metrics").map(|(_, page)| page).filter(|page| page.contains("treadmill_actor_policy_version{"))
+    });
+    let mut check = std::process::Command::new(promtool)
+        .args(["check", "metrics"])
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("promtool starts");
+    check.stdin.take().expect("a pipe").write_all(page.as_bytes()).expect("promtool reads");
+    let output = check.wait_with_output().expect("promtool ends");
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    assert_eq!((stdout(&output), stderr(&output)), (String::new(), String::new()));
+}
+
+#[test]
+fn prometheus_evaluates_the_alarms_on_a_run() {
+    let Some(prometheus) = tool("prometheus") else { return };
+    let (folder, run) = folders();
+    let (training, address) = train(folder.path(), &run, &[]);
+    let at = |name: &str| folder.path().join(name);
+    let config = repository("deploy/observability/prometheus.yml");
+    let config = config.replace("learner:9464", &address).replace("standby", "standby.invalid");
+    let config = config.replace(": 10s", ": 1s").replace(": 30s", ": 1s").replace(": 5s", ": 1s");
+    fs::write(at("prometheus.yml"), config).expect("a file");
+    fs::write(at("alarms.yml"), repository("deploy/observability/alarms.yml")).expect("a file");
+    let mut command = std::process::Command::new(prometheus);
+    command.args(["--config.file=prometheus.yml", "--storage.tsdb.path=tsdb", "--web.listen-address=127.0.0.1:0"]);
+    command.current_dir(folder.path());
+    let server = Running::start(command);
+    let line = server.wait_for("\"Listening on\"");
+    let server_at = line.split("address=").nth(1).expect("an address").trim().to_string();
+    let state = |path: &str| -> Option<serde_json::Value> {
+        let (status, text) = get(&server_at, path)?;
+        (status == 200).then(|| serde_json::from_str(&text).expect("JSON"))
+    };
+    let rules = || {
+        let rules = state("/api/v1/rules")?["data"]["groups"][0]["rules"].as_array()?.clone();
+        let text = |rule: &serde_json::Value, key: &str| rule[key].as_str().unwrap_or_default().to_string();
+        Some(rules.iter().map(|rule| [text(rule, "name"), text(rule, "health"), text(rule, "state")]).collect::<Vec<_>>())
+    };
+    await_that("a scrape", || {
+        let up = state("/api/v1/query?query=treadmill_time_iterations_total")?;
+        (!up["data"]["result"].as_array()?.is_empty()).then_some(())
+    });
+    let evaluated = await_that("all rules evaluated", || {
+        rules().filter(|rules| rules.iter().all(|[_, health, _]| health != "unknown"))
+    });
+    assert!(evaluated.len() >= 7, "{evaluated:?}");
+    for [name, health, state] in &evaluated {
+        assert_eq!((health.as_str(), state.as_str()), ("ok", "inactive"), "{name}");
+    }
+    training.signal(libc::SIGKILL);
+    await_that("the alarm", || {
+        rules()?.iter().any(|[name, _, state]| name == "LearnerGone" && state == "pending").then_some(())
+    });
 }
 
 #[test]

@@ -101,3 +101,8 @@ pub fn skip(why: &str) {
     assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
     eprintln!("SKIPPED: {why}");
 }
+
+/// Returns whether a command succeeds.
+pub fn works(program: &str, args: &[&str]) -> bool {
+    Command::new(program).args(args).output().is_ok_and(|tried| tried.status.success())
+}

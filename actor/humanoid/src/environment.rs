@@ -246,7 +246,9 @@ impl Environment {
             return self.fault(observation);
         }
         let step = Step { physics: &self.physics, action: &self.action, centre_before_m: self.centre_before };
-        let step = self.task.evaluate(&step).at(self.episode_steps, self.config.env.max_episode_steps);
+        let mut evaluated = self.task.evaluate(&step);
+        evaluated.truncated |= !evaluated.terminated && self.physics.is_at_edge();
+        let step = evaluated.at(self.episode_steps, self.config.env.max_episode_steps);
         self.task.observe(&self.physics, self.randomiser.sensors(), observation);
         if !(step.reward.is_finite() && observation.iter().all(|number| number.is_finite())) {
             self.physics.declare_faulty();

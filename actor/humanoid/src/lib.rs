@@ -15,6 +15,7 @@
 //! - [`physics`]: named quantities of the simulated humanoid.
 //! - [`model`]: bodies, hinge chains, motors, pairs of shapes that may touch.
 //! - [`mjcf`]: MJCF text → model.
+//! - [`home`]: examination of the pose in which episodes start.
 //! - [`card`]: robot cards, which complete a model by servos and a default pose.
 //! - `terrain`: generated ground.
 //! - `articulation`: a model as a tree of bodies: paths, poses, mass matrix.
@@ -32,6 +33,7 @@ pub mod card;
 pub mod config;
 pub mod environment;
 pub mod error;
+pub mod home;
 pub mod info;
 pub mod mjcf;
 pub mod model;
@@ -52,6 +54,7 @@ pub use config::{
 pub use dynamics::worlds_per_pass;
 pub use environment::{Environment, EpisodeState, VectorEnvironment};
 pub use error::{InputError, ModelError, StateError};
+pub use home::HomePose;
 pub use info::{InfoValue, StepInfo};
 pub use mjcf::{HUMANOID_XML, read_model_file};
 pub use model::{Model, mirror::Mirror};

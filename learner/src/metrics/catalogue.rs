@@ -17,6 +17,8 @@ pub struct MetricRow {
     pub help: &'static str,
     /// Whether the tables on a terminal, which have at most 25 lines, show it.
     pub is_important: bool,
+    /// Whether it is a total, which only grows: for Prometheus a counter.
+    pub is_total: bool,
     /// Where its value comes from.
     pub source: MetricSource,
 }
@@ -61,55 +63,61 @@ impl MetricRow {
     }
 }
 
-/// Declares metrics: `/// help` `tag, unit, typical => source;`. `IMPORTANT` before the tag makes it such a metric.
+/// Declares metrics: `/// help` `tag, unit, typical => source;`, with marks before the tag.
 macro_rules! metrics {
     ($(
         $(#[doc = $help:literal])+
-        $($important:ident)? $tag:literal, $unit:literal, $typical:literal => $source:expr;
+        $($mark:ident)* $tag:literal, $unit:literal, $typical:literal => $source:expr;
     )*) => {
         &[$( MetricRow {
             tag: $tag,
             unit: $unit,
             typical: $typical,
             help: concat!($($help),+).trim_ascii(),
-            is_important: false $(|| $important)?,
+            is_important: false $(|| matches!(Mark::$mark, Mark::Important))*,
+            is_total: false $(|| matches!(Mark::$mark, Mark::Total))*,
             source: $source,
         } ),*]
     };
 }
-const IMPORTANT: bool = true;
+
+/// Mark of a metric in the table.
+enum Mark {
+    Important,
+    Total,
+}
 
 /// All metrics, in the order in which an update logs them.
 pub const METRICS: &[MetricRow] = metrics! {
     /// Mean return, the sum of unscaled rewards. Standing still through a default episode earns about 5000.
-    IMPORTANT "rollout/ep_rew_mean", "–", "174→5892" => Sometimes(|r| Some(r.state.episodes.means()?.return_mean));
+    Important "rollout/ep_rew_mean", "–", "174→5892" => Sometimes(|r| Some(r.state.episodes.means()?.return_mean));
     /// Mean length.
-    IMPORTANT "rollout/ep_len_mean", "steps", "36→941" => Sometimes(|r| Some(r.state.episodes.means()?.length_mean));
+    Important "rollout/ep_len_mean", "steps", "36→941" => Sometimes(|r| Some(r.state.episodes.means()?.length_mean));
     /// Mean forward distance of the torso.
-    IMPORTANT "rollout/distance_mean_m", "m", "0.04→18" => Sometimes(|r| Some(r.state.episodes.means()?.distance_mean_m));
+    Important "rollout/distance_mean_m", "m", "0.04→18" => Sometimes(|r| Some(r.state.episodes.means()?.distance_mean_m));
     /// Mean of distance over duration.
     "rollout/velocity_mean_mps", "m/s", "0.03→1.3" => Sometimes(|r| Some(r.state.episodes.means()?.velocity_mean_mps));
     /// Episodes that ended with a fall; with external tasks, by their rule.
-    IMPORTANT "rollout/fall_fraction", "share", "1→0.15" => Sometimes(|r| Some(r.state.episodes.means()?.fall_fraction));
+    Important "rollout/fall_fraction", "share", "1→0.15" => Sometimes(|r| Some(r.state.episodes.means()?.fall_fraction));
     /// Mean level of the ground's difficulty, 0 to 9, with `ground.kinds`.
     "rollout/ground_level", "–", "" => Sometimes(|r| r.state.episodes.means()?.ground_level);
     /// Mean factor on the ranges of commands, 0.4 to 1, with `velocity.command_curriculum`.
     "rollout/command_factor", "–", "" => Sometimes(|r| r.state.episodes.means()?.command_factor);
     /// Greatest `rollout/distance_mean_m`.
-    IMPORTANT "rollout/distance_best_m", "m", "" => Sometimes(|r| r.history.distance_best_m);
+    Important "rollout/distance_best_m", "m", "" => Sometimes(|r| r.history.distance_best_m);
     /// Finished episodes.
-    "rollout/episodes", "count", "" => Always(|r| r.state.episodes.finished as f64);
+    Total "rollout/episodes", "count", "" => Always(|r| r.state.episodes.finished as f64);
     /// Environment steps learnt from, divided by those that actors counted, in the last 20 updates. Below 0.9 is an alarm.
-    IMPORTANT "rollout/used_share", "share", "1" => Sometimes(|r| r.efficiency.used_share);
+    Important "rollout/used_share", "share", "1" => Sometimes(|r| r.efficiency.used_share);
 
     /// Environment steps learnt from per second, in the last 20 updates.
-    IMPORTANT "time/fps", "steps/s", "23000" => Always(|r| r.efficiency.env_steps_per_s);
+    Important "time/fps", "steps/s", "23000" => Always(|r| r.efficiency.env_steps_per_s);
     /// Updates, undone ones included.
-    "time/iterations", "count", "" => Always(|r| r.state.counters.updates as f64);
+    Total "time/iterations", "count", "" => Always(|r| r.state.counters.updates as f64);
     /// Time that the learner ran.
-    "time/time_elapsed", "s", "" => Always(|r| r.state.counters.wall_s);
+    Total "time/time_elapsed", "s", "" => Always(|r| r.state.counters.wall_s);
     /// Environment steps learnt from; equals `step`.
-    IMPORTANT "time/total_timesteps", "steps", "" => Always(|r| r.state.counters.env_steps as f64);
+    Important Total "time/total_timesteps", "steps", "" => Always(|r| r.state.counters.env_steps as f64);
     /// Time spent waiting for this batch.
     "time/collect_s", "s", "0.24" => Always(|r| r.durations.collect.as_secs_f64());
     /// Time for advantage estimation and gradient steps.
@@ -144,15 +152,15 @@ pub const METRICS: &[MetricRow] = metrics! {
 
     /// KL divergence from the policy before the update to the one after its last epoch, in closed form. Over
     /// twice `ppo.target_kl`, the learning rate is divided by 1.5; under half of it, multiplied.
-    IMPORTANT "train/approx_kl", "nats", "0.03→0.027" => Sometimes(|r| Some(r.update?.approx_kl));
+    Important "train/approx_kl", "nats", "0.03→0.027" => Sometimes(|r| Some(r.update?.approx_kl));
     /// Passes that were undone, because the divergence was above eight times `ppo.target_kl`.
     "train/undone_passes", "count", "0" => Sometimes(|r| Some(r.update?.undone_passes.into()));
     /// Samples whose probability ratio left 1 ± `ppo.clip_range`.
-    IMPORTANT "train/clip_fraction", "share", "0.25→0.28" => Sometimes(|r| Some(r.update?.clip_fraction));
+    Important "train/clip_fraction", "share", "0.25→0.28" => Sometimes(|r| Some(r.update?.clip_fraction));
     /// Minus the entropy of the actions' distribution, summed over actions.
     "train/entropy_loss", "nats", "−15.5→−12.1" => Sometimes(|r| Some(-r.update?.entropy));
     /// Share of the returns' variance that the critic predicted.
-    IMPORTANT "train/explained_variance", "up to 1", "0.83→0.89" => Sometimes(|r| Some(r.update?.explained_variance));
+    Important "train/explained_variance", "up to 1", "0.83→0.89" => Sometimes(|r| Some(r.update?.explained_variance));
     /// Clipped surrogate loss, mean over gradient steps; below 0 if the policy improves.
     "train/policy_gradient_loss", "–", "−0.02→−0.008" => Sometimes(|r| Some(r.update?.policy_loss));
     /// Half the critic's mean squared error, in units of the returns' running variance.
@@ -162,7 +170,7 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Euclidean norm of the gradient before clipping to `ppo.max_grad_norm`, mean over gradient steps.
     "train/grad_norm", "–", "1.5→3" => Sometimes(|r| Some(r.update?.grad_norm));
     /// Standard deviation of the exploration noise, mean over actions from −1 to 1. Starts at exp(`policy.init_log_std`).
-    IMPORTANT "train/std", "action range", "0.6→0.5" => Sometimes(|r| Some(r.update?.std));
+    Important "train/std", "action range", "0.6→0.5" => Sometimes(|r| Some(r.update?.std));
     /// Samples (batch times epochs) per second of gradient steps alone.
     "train/samples_per_s", "1/s", "275000"
         => Sometimes(|r| Some(r.update?.samples as f64 / r.durations.learn.as_secs_f64().max(1e-9)));
@@ -173,11 +181,11 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Passes over the batch: `ppo.epochs`; down to `ppo.epochs_min` if experience keeps waiting in mode `async`.
     "train/epochs", "count", "3" => Always(|r| r.epochs.into());
     /// Learning rate after the update.
-    IMPORTANT "train/learning_rate", "–", "0.00045→0.0003" => Always(|r| r.state.ppo.learning_rate());
+    Important "train/learning_rate", "–", "0.00045→0.0003" => Always(|r| r.state.ppo.learning_rate());
     /// Gradient steps.
-    "train/n_updates", "count", "" => Always(|r| r.state.counters.gradient_steps as f64);
+    Total "train/n_updates", "count", "" => Always(|r| r.state.counters.gradient_steps as f64);
     /// Updates undone because a number was not finite. 0 in a healthy run; `learner.undone_max` in a row end it.
-    "train/undone_updates", "count", "" => Always(|r| r.state.counters.undone_updates as f64);
+    Total "train/undone_updates", "count", "" => Always(|r| r.state.counters.undone_updates as f64);
 
     /// Versions that the acting policy was behind the newest, mean over the batch. 0 in mode `sync`; about 1 in `async`.
     "bus/policy_lag_mean", "versions", "" => Always(|r| r.lag.mean);
@@ -196,40 +204,40 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Transitions 5 versions or more behind.
     "bus/policy_lag_5_up_share", "share", "" => Always(|r| r.lag.shares[5]);
     /// Accepted fragments.
-    "bus/fragments_accepted", "count", "" => Always(|r| r.state.fragment_counts.accepted as f64);
+    Total "bus/fragments_accepted", "count", "" => Always(|r| r.state.fragment_counts.accepted as f64);
     /// Fragments that arrived again; not learnt from again.
-    "bus/fragments_duplicate", "count", "" => Always(|r| r.state.fragment_counts.duplicate as f64);
+    Total "bus/fragments_duplicate", "count", "" => Always(|r| r.state.fragment_counts.duplicate as f64);
     /// Dropped by rule: lag over `learner.max_policy_lag`, or any lag in mode `sync`.
-    "bus/fragments_too_old", "count", "" => Always(|r| r.state.fragment_counts.too_old as f64);
+    Total "bus/fragments_too_old", "count", "" => Always(|r| r.state.fragment_counts.too_old as f64);
     /// Dropped by rule: a resumed learner does not know their policy.
-    "bus/fragments_vanished", "count", "" => Always(|r| r.state.fragment_counts.vanished as f64);
+    Total "bus/fragments_vanished", "count", "" => Always(|r| r.state.fragment_counts.vanished as f64);
     /// Refused: invalid, or of another run or configuration; the log names the field. 0 in a healthy fleet.
-    "bus/fragments_malformed", "count", "" => Always(|r| r.state.fragment_counts.malformed as f64);
+    Total "bus/fragments_malformed", "count", "" => Always(|r| r.state.fragment_counts.malformed as f64);
     /// Accepted but not learnt from: absurd log-probabilities or rewards. `treadmill status` names the senders.
-    "bus/fragments_implausible", "count", "" => Always(|r| r.state.fragment_counts.implausible as f64);
+    Total "bus/fragments_implausible", "count", "" => Always(|r| r.state.fragment_counts.implausible as f64);
     /// Refused unread: their sender is in quarantine.
-    "bus/fragments_quarantined", "count", "" => Always(|r| r.state.fragment_counts.quarantined as f64);
+    Total "bus/fragments_quarantined", "count", "" => Always(|r| r.state.fragment_counts.quarantined as f64);
     /// Refused unread for lack of space; actors send them again. Near 0 in a healthy fleet.
-    "bus/fragments_turned_away", "count since start", "" => Always(|r| r.turned_away as f64);
+    Total "bus/fragments_turned_away", "count since start", "" => Always(|r| r.turned_away as f64);
     /// Size on the bus of accepted fragments.
-    "bus/accepted_mb", "MB since start", "" => Always(|r| r.accepted_bytes as f64 / 1e6);
+    Total "bus/accepted_mb", "MB since start", "" => Always(|r| r.accepted_bytes as f64 / 1e6);
     /// Sequence numbers that senders settled and this learner never handled.
-    "bus/fragments_unseen", "count", "" => Always(|r| r.state.ledger.total().unseen as f64);
+    Total "bus/fragments_unseen", "count", "" => Always(|r| r.state.ledger.total().unseen as f64);
     /// Environment steps in fragments dropped by rule.
-    "bus/env_steps_dropped", "env steps", "" => Always(|r| r.state.ledger.total().env_steps_dropped as f64);
+    Total "bus/env_steps_dropped", "env steps", "" => Always(|r| r.state.ledger.total().env_steps_dropped as f64);
 
     /// Connected actors.
-    IMPORTANT "actors/alive", "count", "2" => Always(|r| r.alive.len() as f64);
+    Important "actors/alive", "count", "2" => Always(|r| r.alive.len() as f64);
     /// Environments of all actors.
     "actors/envs", "count", "64" => Always(|r| r.sum(|stats| stats.envs.into()));
     /// Time in which actors did not simulate, in the last 20 updates. In mode `sync` they wait during updates.
-    IMPORTANT "actors/idle_share", "share", "0.28" => Sometimes(|r| r.efficiency.idle_share);
+    Important "actors/idle_share", "share", "0.28" => Sometimes(|r| r.efficiency.idle_share);
     /// Actor processes that `train` restarted. 0 in a healthy run.
-    "actors/restarts", "count", "" => Always(|r| r.state.counters.restarts as f64);
+    Total "actors/restarts", "count", "" => Always(|r| r.state.counters.restarts as f64);
     /// Senders in quarantine now.
     "actors/quarantined", "count", "" => Always(|r| r.quarantined as f64);
     /// Episodes in which the physics gave a number that is not finite.
-    "actors/physics_faults", "count", "" => Always(|r| r.state.episodes.faults as f64);
+    Total "actors/physics_faults", "count", "" => Always(|r| r.state.episodes.faults as f64);
     /// Sum of the actors' speeds.
     "actors/env_steps_per_s", "steps/s", "20500" => Always(|r| r.sum(|stats| stats.env_steps_per_s));
     /// Fragments that live actors sent again: no receipt, or the learner was busy, stopping or restarted.
@@ -244,13 +252,13 @@ pub const METRICS: &[MetricRow] = metrics! {
     "learner/memory_mb", "MB", "63" => Always(|_| machine::resident_bytes() as f64 / 1e6);
 
     /// Mean return of `eval.episodes` deterministic episodes without randomisation. The best policy is kept as `best`.
-    IMPORTANT "eval/mean_reward", "reward", "556→6393" => Sometimes(|r| Some(r.evaluation?.0.return_mean));
+    Important "eval/mean_reward", "reward", "556→6393" => Sometimes(|r| Some(r.evaluation?.0.return_mean));
     /// Standard deviation of their returns.
     "eval/std_reward", "reward", "50→8" => Sometimes(|r| Some(r.evaluation?.0.return_std));
     /// Mean length.
     "eval/mean_ep_length", "control steps", "107→1000" => Sometimes(|r| Some(r.evaluation?.0.length_mean));
     /// Mean forward distance per episode.
-    IMPORTANT "eval/distance_mean_m", "m", "0.57→20" => Sometimes(|r| Some(r.evaluation?.0.distance_mean_m));
+    Important "eval/distance_mean_m", "m", "0.57→20" => Sometimes(|r| Some(r.evaluation?.0.distance_mean_m));
     /// Greatest `eval/distance_mean_m`.
     "eval/distance_best_m", "m", "" => Sometimes(|r| r.evaluation.and(r.history.evaluated_best_m));
     /// Total distance over total time.
@@ -261,9 +269,9 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Environment steps that the evaluated policy had learnt from.
     "eval/total_timesteps", "steps", "" => Sometimes(|r| Some(r.evaluation?.1 as f64));
     /// Error of the base's horizontal velocity, for tasks with commands: mean over windows of 1 s without change or push.
-    IMPORTANT "eval/velocity_error", "m/s", "" => Sometimes(|r| r.evaluation?.0.velocity_error_mps);
+    Important "eval/velocity_error", "m/s", "" => Sometimes(|r| r.evaluation?.0.velocity_error_mps);
     /// The same for the yaw rate.
-    IMPORTANT "eval/yaw_rate_error", "rad/s", "" => Sometimes(|r| r.evaluation?.0.yaw_rate_error_radps);
+    Important "eval/yaw_rate_error", "rad/s", "" => Sometimes(|r| r.evaluation?.0.yaw_rate_error_radps);
 
     /// Mean of weight times this term of the reward over the batch.
     "rewards/{term}", "–", "" => Term;
@@ -275,6 +283,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Lag of the batch's transitions, one bucket per version.
     "bus/policy_lag", "versions", "" => Histogram;
 
+    /// Always 1, with the program's `version` as a label.
+    "build/info", "–", "" => Live;
     /// Time since the training thread last made progress; at most about one update in a healthy run.
     "learner/silence_s", "s", "" => Live;
     /// Speed of the actor in the label `actor`; one row per live actor, at most 1024.
@@ -289,7 +299,7 @@ pub const METRICS: &[MetricRow] = metrics! {
         Some(newest.number.saturating_sub(version.number) as f64)
     });
     /// Fragments that it sent again.
-    "actor/fragments_resent", "count", "" => Actor(|stats, _| Some(stats.resent as f64));
+    Total "actor/fragments_resent", "count", "" => Actor(|stats, _| Some(stats.resent as f64));
     /// Its resident memory.
     "actor/memory_mb", "MB", "" => Actor(|stats, _| Some(stats.resident_bytes as f64 / 1e6));
 };

@@ -131,8 +131,9 @@ impl Reporting {
         counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
     }
 
-    /// Shows a long wait for experience on the console; `actors` are alive.
+    /// Shows a long wait for experience on the console, and the number of actors, which are alive, on the metrics page.
     pub(super) fn show_wait(&self, waited: Duration, actors: usize) {
+        self.prometheus.set([("actors/alive", actors as f64)]);
         self.background.submit(move |report| {
             report.show_wait(waited, actors);
             Ok(())

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use treadmill_learner::metrics::{
     catalogue::{METRICS, MetricRow, MetricSource},
-    prometheus::gauge,
+    prometheus,
 };
 
 use super::heading;
@@ -33,8 +33,10 @@ fn section(row: &MetricRow) -> &'static str {
 
 /// Returns the line of a metric.
 fn line(row: &MetricRow) -> String {
-    let name = if section(row) == "prometheus" { gauge(row.tag) } else { row.tag.to_string() };
-    let known: Vec<&str> = [row.unit, row.typical].into_iter().filter(|text| !["", "–"].contains(text)).collect();
+    let name = if section(row) == "prometheus" { prometheus::name(row.tag) } else { row.tag.to_string() };
+    // Those of Prometheus name their base units.
+    let unit = if section(row) == "prometheus" { "" } else { row.unit };
+    let known: Vec<&str> = [unit, row.typical].into_iter().filter(|text| !["", "–"].contains(text)).collect();
     let known = if known.is_empty() { String::new() } else { format!(" ({})", known.join("; ")) };
     format!("- `{name}`{known}: {}\n", row.help)
 }

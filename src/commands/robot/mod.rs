@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use treadmill_config::Config;
-use treadmill_humanoid::{Model, Physics, card};
+use treadmill_humanoid::{EnvTask, EnvironmentConfig, HomePose, Model, Physics, TaskRegistry, card};
 use treadmill_render::{Camera, Picture, Scene, film};
 use treadmill_runtime::atomic_file;
 
@@ -46,6 +46,7 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     let is_card = robot.robot.is_some();
     let config = config.environment();
     let mut physics = Physics::new(robot.clone(), &config).map_err(|why| model::in_file(Some(&args.file), &why))?;
+    let home = home(config, &text, is_card);
     let position = match (&robot.robot, robot.keyframes.first()) {
         (Some(card), _) => card.default_position.clone(),
         (None, Some(key)) => key.position.clone(),
@@ -60,10 +61,10 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     // Numbers of links and hinges are those with all hinges at zero.
     physics.set_state(&robot.nominal_position(), &vec![0.0; robot.velocity_size()]);
     if args.json {
-        say(&report::json(&physics, &text, &args.file).to_string());
+        say(&report::json(&physics, &text, &args.file, home.as_ref()).to_string());
         return Ok(());
     }
-    let lines = report::lines(&robot, &text, &args.file);
+    let lines = report::lines(&robot, &text, &args.file, home.as_ref());
     if is_card {
         say(lines.trim_end());
         return Ok(());
@@ -72,4 +73,12 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     let comments: String = lines.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
     say(&format!("{comments}\n{}", card::draft(&robot, &file).trim_end()));
     Ok(())
+}
+
+/// Examines the default pose; `None` for a model that no task simulates yet, such as one without motors.
+fn home(mut config: EnvironmentConfig, text: &str, is_card: bool) -> Option<HomePose> {
+    // Heights that are healthy belong to a training.
+    config.env.terminate_when_unhealthy = false;
+    config.env.task = if is_card { EnvTask::Velocity } else { config.env.task };
+    HomePose::of(&config, text, &TaskRegistry::default()).ok()
 }

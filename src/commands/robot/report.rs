@@ -4,13 +4,13 @@ use std::{collections::BTreeMap, fmt::Write, path::Path};
 
 use serde_json::{Value, json};
 use treadmill_humanoid::{
-    Mirror, Model, Physics,
+    HomePose, Mirror, Model, Physics,
     mjcf::visual_meshes,
     model::{Geometry, Hinge, HingeControl, Motor},
 };
 
 /// Returns the report of a model that was read from `file`.
-pub fn lines(model: &Model, text: &str, file: &Path) -> String {
+pub fn lines(model: &Model, text: &str, file: &Path, home: Option<&HomePose>) -> String {
     let mut lines = String::new();
     let mut line = |name: &str, what: String| {
         let _ = writeln!(lines, "{name:<10} {what}");
@@ -43,6 +43,15 @@ pub fn lines(model: &Model, text: &str, file: &Path) -> String {
         let feet: Vec<&str> = robot.feet.iter().map(|foot| model.links[*foot].name.as_str()).collect();
         line("feet", feet.join(", "));
     }
+    if let Some(home) = home {
+        let forward = home.forward.map(|axis| format!("{axis} forward, ")).unwrap_or_default();
+        line("axes", format!("of the base: {forward}{} up", home.up));
+        line("at home", format!("on the ground: {}", joined(&home.touching)));
+        home.faults.iter().for_each(|what| line("fault", what.clone()));
+        home.warnings.iter().for_each(|what| line("warning", what.clone()));
+    }
+    let names: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
+    line("bodies", joined(&names));
     match Mirror::of(model) {
         Ok(_) => line("symmetry", "each hinge has a mirror image".to_owned()),
         Err(why) => line("symmetry", format!("none: {why}")),
@@ -61,6 +70,11 @@ pub fn lines(model: &Model, text: &str, file: &Path) -> String {
     }
     lines.push('\n');
     lines + &table(model)
+}
+
+fn joined<S: AsRef<str>>(names: &[S]) -> String {
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// Counts the visual meshes of a model file; 0 if their files cannot be read, because nothing but a viewer needs them.
@@ -162,7 +176,7 @@ impl HingeFacts {
 }
 
 /// Returns the report as JSON; poses are those of all hinges at zero, in the world.
-pub fn json(physics: &Physics, text: &str, file: &Path) -> Value {
+pub fn json(physics: &Physics, text: &str, file: &Path, home: Option<&HomePose>) -> Value {
     let model = physics.model();
     let links: Vec<Value> = model
         .links
@@ -213,6 +227,10 @@ pub fn json(physics: &Physics, text: &str, file: &Path) -> Value {
         "feet": model.robot.as_ref().map(|robot| {
             robot.feet.iter().map(|foot| model.links[*foot].name.as_str()).collect::<Vec<_>>()
         }),
+        "axes": home.map(|home| json!({"forward": home.forward, "up": home.up})),
+        "on_ground_at_home": home.map(|home| &home.touching),
+        "faults": home.map(|home| &home.faults),
+        "warnings": home.map(|home| &home.warnings),
         "hinges": model.hinges.iter().enumerate().map(of_hinge).collect::<Vec<_>>(),
         "links": links,
         "simplified": model.simplifications,

@@ -24,7 +24,7 @@ pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
 }
 
 /// Returns a model text with a card in it.
-pub(super) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
+pub(crate) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
     let document = xml::parse_model(text)?;
     let root = document.root_element().range();
     let end = text[..root.end].rfind("</").unwrap_or(root.end);

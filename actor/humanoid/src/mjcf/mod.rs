@@ -13,7 +13,7 @@
 //! - `card_text`: a robot card within a text.
 
 mod assets;
-mod card_text;
+pub(crate) mod card_text;
 mod defaults;
 mod element;
 mod embed;

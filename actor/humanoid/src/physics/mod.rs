@@ -23,6 +23,10 @@ use crate::dynamics::{self, Drive, Impulse, Pass, World};
 use crate::error::ModelError;
 use crate::model::Model;
 
+/// Distance from the edge of a height field at which an episode ends (m), and its greatest share of half a side.
+const EDGE_M: f64 = 1.0;
+const EDGE_SHARE: f64 = 0.25;
+
 /// Error of a simulation that produced a non-finite number; [`Physics::set_state`] recovers from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the physics state is not finite")]
@@ -264,6 +268,16 @@ impl Physics {
     pub fn ground_height_m(&self, x_m: f64, y_m: f64) -> f64 {
         let field = self.model.ground.height_field.as_ref();
         field.and_then(|field| field.height_at(x_m, y_m)).unwrap_or(0.0)
+    }
+
+    /// Returns whether the humanoid is so near to the edge of a height field that it would soon fall off.
+    #[must_use]
+    pub fn is_at_edge(&self) -> bool {
+        let [x_m, y_m] = [self.world.position[0], self.world.position[1]];
+        self.model.ground.height_field.as_ref().is_some_and(|field| {
+            let sides = [(x_m - field.centre_m.x, field.half_x_m), (y_m - field.centre_m.y, field.half_y_m)];
+            sides.iter().any(|(place_m, half_m)| place_m.abs() > half_m - EDGE_M.min(EDGE_SHARE * half_m))
+        })
     }
 
     /// Returns pose and velocity of a body, an index into [`Model::bodies`].

@@ -7,6 +7,7 @@
 
 pub(crate) mod access_rules;
 pub mod endpoint;
+mod links;
 
 use std::path::PathBuf;
 

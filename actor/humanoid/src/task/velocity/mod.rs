@@ -45,8 +45,6 @@ use crate::randomisation::{SensorNoise, stream, uniform};
 pub const ACTION_MAX: f64 = 4.0;
 /// Largest distance of a start from the middle of its tile, along x and along y (m).
 const START_M: f64 = 0.5;
-/// Distance from the edge of generated ground at which an episode ends (m).
-const EDGE_M: f64 = 1.0;
 
 /// Task of following velocity commands.
 pub struct VelocityTask {
@@ -199,14 +197,6 @@ impl VelocityTask {
         }
     }
 
-    /// Returns whether the robot is so near to the edge of generated ground that it would soon fall off.
-    fn is_at_edge(&self, physics: &Physics) -> bool {
-        self.ground.as_ref().is_some_and(|ground| {
-            let halves_m = ground.halves_m();
-            physics.position()[..2].iter().zip(halves_m).any(|(place_m, half_m)| place_m.abs() > half_m - EDGE_M)
-        })
-    }
-
     fn draw(&mut self, index: u32) {
         self.drawn_index = index;
         self.drawn = Drawn::new(&self.commanded, self.step_s, self.seed, index);
@@ -296,7 +286,7 @@ impl Task for VelocityTask {
         let weighted = self.weights.weights().into_iter().zip(terms);
         let reward = weighted.fold(0.0, |sum, (weight, term)| sum + weight * term);
         self.rewarded = terms;
-        let truncated = !has_fallen && self.is_at_edge(physics);
+        let truncated = !has_fallen && physics.is_at_edge();
         let is_last = truncated || self.max_episode_steps > 0 && self.episode_steps >= self.max_episode_steps;
         if let Some(curriculum) = &mut self.curriculum {
             let velocity_mps = [base.velocity_mps.x, base.velocity_mps.y];

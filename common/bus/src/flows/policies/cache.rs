@@ -154,7 +154,7 @@ impl PolicyCache {
                     let outcome = match fetched {
                         Some(_) => Heard::Answered,
                         None if is_learner_present(&bus, &run, TOKEN_TIMEOUT).await.unwrap_or(false) => Heard::Silent,
-                        None if is_linked(&bus) => Heard::Unreachable,
+                        None if bus.is_linked() => Heard::Unreachable,
                         None => Heard::Absent,
                     };
                     (run, fetched, outcome)
@@ -162,11 +162,6 @@ impl PolicyCache {
             }
         }
     }
-}
-
-/// Returns whether this session has a link to a learner or another router.
-fn is_linked(bus: &Bus) -> bool {
-    bus.session.info().routers_zid().wait().next().is_some()
 }
 
 /// Returns the run in a key if its name is valid.
