@@ -1,14 +1,18 @@
-"""Forwards the metrics of runs to MLflow or Weights & Biases while they train, and a video of the policy at the end.
+"""Forwards the metrics of runs to MLflow or Weights & Biases, and a video of the policy at the end.
 
     python -m treadmill_actor.forward mlflow runs/walk-1             # a run's folder on this machine
     python -m treadmill_actor.forward wandb walk --connect tls/HOST:7447 --tls certs
 
-Keeps the name, environment step and time of each metric. A run ends when its learner has been gone for ten seconds; then the best
-policy of a folder is filmed by `treadmill eval`. Ctrl-C ends all runs; a second one ends the process at once.
+Keeps the name, environment step and time of each metric. A folder gives its whole run, over all resumes, with its configuration,
+whether it has ended or is trained now; while a process trains it, what it writes follows. Then the best policy is filmed by
+`treadmill eval`. From the bus come the metrics from now on, until the run's learner has been gone for ten seconds. Ctrl-C ends all
+runs; a second one ends the process at once.
 """
 
 import argparse
+import fcntl
 import importlib
+import json
 import queue
 import shutil
 import subprocess
@@ -16,6 +20,7 @@ import sys
 import tempfile
 import threading
 import time
+import tomllib
 from pathlib import Path
 
 from .signals import request_stop
@@ -24,18 +29,26 @@ GONE_S = 10.0
 """Time without a learner after which a run has ended: a learner that restarts is back sooner."""
 BATCH_MAX = 1000
 """Most metrics of one call; MLflow's limit."""
+PARAMS_MAX = 100
+"""Most parameters of one call; MLflow's limit."""
+POLL_S = 1.0
+"""Interval at which the files of a run that is trained are read."""
 
 
 class MlflowRun:
     """Run of an MLflow experiment."""
 
-    def __init__(self, name, project, tracking_uri=None):
+    def __init__(self, name, project, config, tracking_uri=None):
         from mlflow import MlflowClient
+        from mlflow.entities import Param
 
         self.client = MlflowClient(tracking_uri)
         known = self.client.get_experiment_by_name(project)
         experiment = known.experiment_id if known else self.client.create_experiment(project)
         self.id = self.client.create_run(experiment, run_name=name).info.run_id
+        params = [Param(key, str(value)) for key, value in config.items()]
+        for first in range(0, len(params), PARAMS_MAX):
+            self.client.log_batch(self.id, params=params[first : first + PARAMS_MAX])
 
     def log(self, metrics):
         """Logs metrics."""
@@ -54,11 +67,11 @@ class MlflowRun:
 class WandbRun:
     """Run of a Weights & Biases project."""
 
-    def __init__(self, name, project):
+    def __init__(self, name, project, config):
         import wandb
 
         self.wandb = wandb
-        self.run = wandb.init(project=project, name=name, reinit="create_new")
+        self.run = wandb.init(project=project, name=name, config=config, reinit="create_new")
         # Its own steps count calls.
         self.run.define_metric("*", step_metric="env_steps")
 
@@ -100,7 +113,7 @@ def take_batch(events, timeout_s):
     return batch
 
 
-def forward(events, open_run, make_video, stopping, gone_s=GONE_S):
+def forward(events, open_run, stopping, gone_s=GONE_S):
     """Logs metrics until every run that began has ended, or until a request to stop.
 
     `events` holds ("metric", metric), ("begun", run) and ("gone", run). `open_run(name)` returns a sink.
@@ -123,23 +136,74 @@ def forward(events, open_run, make_video, stopping, gone_s=GONE_S):
             for name in ended:
                 del gone_since[name]
                 if name in sinks:
-                    sinks.pop(name).finish(make_video())
+                    sinks.pop(name).finish(None)
                     if not sinks:
                         return
     finally:
         for sink in sinks.values():
+            sink.finish(None)
+
+
+def is_trained(folder):
+    """Returns whether a process has the lock of the run in `folder`."""
+    try:
+        with open(folder / "lock.json") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        pass
+    return False
+
+
+def batches_of(folder, stopping, poll_s=POLL_S):
+    """Yields the metrics of the run in `folder` in order, until its end or a request to stop."""
+    position, file = 0, folder / "metrics.jsonl"
+    while True:
+        # Asked before reading, so that the last lines of a process that ends now are read too.
+        goes_on = is_trained(folder) and not stopping.is_set()
+        if file.exists():
+            with open(file, "rb") as lines:
+                # A resume takes back what followed its checkpoint.
+                position = min(position, file.stat().st_size)
+                lines.seek(position)
+                batch = []
+                # The last line may be incomplete.
+                while (line := lines.readline()).endswith(b"\n"):
+                    position += len(line)
+                    batch.append(json.loads(line))
+                    if len(batch) == BATCH_MAX:
+                        yield batch
+                        batch = []
+                if batch:
+                    yield batch
+        if not goes_on:
+            return
+        stopping.wait(poll_s)
+
+
+def forward_folder(folder, open_run, make_video, stopping, poll_s=POLL_S):
+    """Logs the whole run in `folder`."""
+    sink = None
+    try:
+        for batch in batches_of(folder, stopping, poll_s):
+            sink = sink or open_run(batch[0]["run"])
+            sink.log(batch)
+    finally:
+        if sink:
             sink.finish(make_video())
 
 
-def address(run, connect, default):
-    """Returns folder, run and endpoints that the arguments name; a folder holds the endpoint of its learner."""
-    folder = next((path for path in (Path(run), Path("runs") / run) if (path / "endpoint.txt").is_file()), None)
-    if connect or not folder:
-        if "/" in run:
-            raise ValueError(f"`{run}` is neither a run's folder with endpoint.txt nor a run's name")
-        return None, run, connect or [default]
-    endpoint = (folder / "endpoint.txt").read_text().partition("\n")[0]
-    return folder, "*", [endpoint.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")]
+def config_of(folder):
+    """Returns the configuration of the run in `folder`, by `section.key`."""
+    with open(folder / "config.toml", "rb") as file:
+        sections = tomllib.load(file)
+    return {f"{section}.{key}": value for section, keys in sections.items() for key, value in keys.items()}
+
+
+def folder_of(run):
+    """Returns the folder of a run that was named, here or below runs/, or None."""
+    return next((path for path in (Path(run), Path("runs") / run) if (path / "config.toml").is_file()), None)
 
 
 def main():
@@ -158,9 +222,24 @@ def main():
     args = flags.parse_args()
     events, stopping = queue.Queue(), threading.Event()
     request_stop(stopping)
+    folder = None if args.connect else folder_of(args.run)
+    config = config_of(folder) if folder else {}
+
+    def open_run(name):
+        print(f"forwarding run `{name}` to {args.to}", flush=True)
+        if args.to == "wandb":
+            return WandbRun(name, args.project, config)
+        return MlflowRun(name, args.project, config, args.tracking_uri)
+
     try:
         importlib.import_module(args.to)
-        folder, run, connect = address(args.run, args.connect, bus.default_endpoint(args.tls))
+        if folder:
+            with tempfile.TemporaryDirectory() as target:
+                forward_folder(folder, open_run, lambda: film(folder, target, args.treadmill), stopping)
+            return 0
+        if "/" in args.run:
+            raise ValueError(f"`{args.run}` is neither a run's folder with config.toml nor a run's name")
+        run, connect = args.run, args.connect or [bus.default_endpoint(args.tls)]
         for endpoint in connect:
             bus.check_endpoint(endpoint, args.insecure, args.tls)
         session = bus.dialled(lambda: bus.observe(connect, args.tls, run, events), connect, stopping)
@@ -171,14 +250,10 @@ def main():
         print(f"error: {error}", file=sys.stderr)
         return 2
 
-    def open_run(name):
-        print(f"forwarding run `{name}` to {args.to}", flush=True)
-        return MlflowRun(name, args.project, args.tracking_uri) if args.to == "mlflow" else WandbRun(name, args.project)
-
     if session is None:
         return 0
-    with session, tempfile.TemporaryDirectory() as target:
-        forward(events, open_run, lambda: folder and film(folder, target, args.treadmill), stopping)
+    with session:
+        forward(events, open_run, stopping)
     return 0
 
 

@@ -8,9 +8,11 @@ import sys
 import time
 import warnings
 
+from . import walk
 from .commands import read_commands
 from .contract import Policy, TransferError
 from .controller import Controller
+from .film import Film
 from .ground import read_ground
 from .play import play_episode, summary
 from .robot import Robot
@@ -67,6 +69,7 @@ def parser():
         help="largest difference from the trace; default " + ", ".join(f"{name}={value:g}" for name, value in TOLERANCES.items()),
     )
     flags.add_argument("--view", action="store_true", help="show the robot in MuJoCo's viewer, in real time")
+    flags.add_argument("--film", metavar="FILE", help="write the first episode as a GIF, or with ffmpeg as an MP4")
     flags.add_argument("--json", action="store_true", help="print only one JSON object")
     return flags
 
@@ -79,6 +82,8 @@ def main(arguments=None):
         flags.error(f"argument --seed: {args.seed} is below 0")
     try:
         policy = Policy(args.policy)
+        if isinstance(policy.contract, walk.WalkContract):
+            return walked(args, policy)
         ground = read_ground(args.ground) if args.ground else None
         rows = read_commands(args.commands) if args.commands else None
         robot = Robot(args.model, policy.contract, args.timestep, ground)
@@ -86,7 +91,9 @@ def main(arguments=None):
         for note in [] if args.json else robot.notes:
             print(f"note: {note}", file=sys.stderr)
         if args.trace:
-            return compared(args, robot, controller)
+            tolerances = tolerances_of(args)
+            lines = read_trace(args.trace, len(robot.hinge_names))
+            return compared(args, lines, tolerances, *compare(robot, controller, lines, tolerances))
         played(args, robot, controller, rows, ground)
     except TransferError as why:
         print(f"error: {why}", file=sys.stderr)
@@ -94,13 +101,53 @@ def main(arguments=None):
     return 0
 
 
-def compared(args, robot, controller):
-    """Compares with a trace and prints the result; returns 1 if a boundary differs."""
+def walked(args, policy):
+    """Plays or compares a policy of Gymnasium's tasks. Returns the exit code."""
+    unused = [flag for flag, value in (("--commands", args.commands), ("--ground", args.ground)) if value]
+    if unused:
+        raise TransferError(f"{unused[0]} is for policies of the velocity task; leave it out")
+    contract, walker = policy.contract, walk.Walker(args.model, policy.contract, args.timestep)
+    for note in [] if args.json else walker.notes:
+        print(f"note: {note}", file=sys.stderr)
+    if args.trace:
+        tolerances = tolerances_of(args)
+        lines = read_trace(args.trace, len(contract.joint_names), walk.KEYS)
+        return compared(args, lines, tolerances, *walk.compare(walker, policy, lines, tolerances))
+    steps = max(1, round(args.seconds / contract.control_step_s))
+    with Shown(args, walker) as shown:
+        episodes = []
+        if not args.json:
+            print("episode  length  distance m  end")
+        for index in range(args.episodes):
+            episode = walk.play_episode(walker, policy, steps, args.seed, index, shown.next_episode())
+            episodes.append(episode)
+            if not args.json:
+                end = "fell" if episode["fell"] else "time limit"
+                print(f"{index + 1:>7} {episode['length']:>7} {episode['distance_m']:>11.2f}  {end}", flush=True)
+            if shown.is_closed():
+                break
+    result = walk.summary(episodes, contract.control_step_s)
+    if args.json:
+        print(json.dumps(result))
+        return 0
+    print()
+    print(f"episodes        {result['episodes']}, {result['falls']} of them ended with a fall")
+    print(f"distance        {result['distance_mean_m']:.2f} m")
+    print(f"velocity        {result['velocity_mean_mps']:.2f} m/s")
+    print(f"length          {result['length_mean']:.1f} steps")
+    return 0
+
+
+def tolerances_of(args):
+    """Returns the tolerance of each boundary."""
     tolerances = dict(TOLERANCES)
     for names, value in args.tolerance:
         tolerances.update(dict.fromkeys(names, value))
-    lines = read_trace(args.trace, len(robot.hinge_names))
-    first, largest = compare(robot, controller, lines, tolerances)
+    return tolerances
+
+
+def compared(args, lines, tolerances, first, largest):
+    """Prints the result of a comparison; returns 1 if a boundary differs."""
     if args.json:
         print(json.dumps({"steps": len(lines), "first_difference": first, "largest": largest, "tolerances": tolerances}))
         return 1 if first else 0
@@ -120,20 +167,20 @@ def played(args, robot, controller, rows, ground):
     """Plays the episodes and prints their results."""
     steps = max(1, round(args.seconds / robot.contract.control_step_s))
     starts = itertools.cycle([(0.0, 0.0, 0.0, 0.0)] if ground is None else ground.starts)
-    viewer = open_viewer(robot) if args.view else None
     episodes = []
     if not args.json:
         print("episode  length  distance m  velocity error m/s  yaw rate error rad/s  end")
-    for index, start in zip(range(args.episodes), starts):
-        shown = show_in(viewer, robot) if viewer else None
-        episode = play_episode(robot, controller, steps, args.seed, index, rows, not args.no_pushes, start, shown)
-        episodes.append(episode)
-        if not args.json:
-            velocity, yaw = [f"{error:.3f}" for error in episode.errors.mean(axis=0)] if len(episode.errors) else "--"
-            end = "fell" if episode.fell else "time limit"
-            print(f"{index + 1:>7} {episode.steps:>7} {episode.distance_m:>11.2f} {velocity:>19} {yaw:>21}  {end}", flush=True)
-        if viewer and not viewer.is_running():
-            break
+    with Shown(args, robot) as shown:
+        for index, start in zip(range(args.episodes), starts):
+            pushes, each = not args.no_pushes, shown.next_episode()
+            episode = play_episode(robot, controller, steps, args.seed, index, rows, pushes, start, each)
+            episodes.append(episode)
+            if not args.json:
+                velocity, yaw = [f"{error:.3f}" for error in episode.errors.mean(axis=0)] if len(episode.errors) else "--"
+                end = "fell" if episode.fell else "time limit"
+                print(f"{index + 1:>7} {episode.steps:>7} {episode.distance_m:>11.2f} {velocity:>19} {yaw:>21}  {end}", flush=True)
+            if shown.is_closed():
+                break
     result = summary(episodes, robot.contract.control_step_s)
     if args.json:
         print(json.dumps(result))
@@ -166,15 +213,44 @@ def open_viewer(robot):
         raise TransferError(f"--view cannot open a window ({why}); leave it out") from why
 
 
-def show_in(viewer, robot):
-    """Returns a function that shows each step at its time, and returns whether the window is open."""
-    due = time.monotonic()
+class Shown:
+    """Where episodes are shown: in a window, in a film, or nowhere."""
 
-    def shown():
-        nonlocal due
-        due += robot.contract.control_step_s
-        time.sleep(max(0.0, due - time.monotonic()))
-        viewer.sync()
-        return viewer.is_running()
+    def __init__(self, args, robot):
+        self.robot = robot
+        # The film first, which may be refused.
+        self.film = Film(args.film, robot) if args.film else None
+        self.viewer = open_viewer(robot) if args.view else None
+        self.episodes = 0
 
-    return shown
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        if self.film and kind is None:
+            self.film.save()
+
+    def is_closed(self):
+        """Returns whether the window was closed."""
+        return self.viewer is not None and not self.viewer.is_running()
+
+    def next_episode(self):
+        """Returns a function that shows each step, and returns whether to go on; None if nothing is shown."""
+        self.episodes += 1
+        film = self.film if self.episodes == 1 else None
+        if film is None and self.viewer is None:
+            return None
+        due = time.monotonic()
+
+        def shown():
+            nonlocal due
+            if film:
+                film.add()
+            if self.viewer is None:
+                return True
+            due += self.robot.contract.control_step_s
+            time.sleep(max(0.0, due - time.monotonic()))
+            self.viewer.sync()
+            return self.viewer.is_running()
+
+        return shown

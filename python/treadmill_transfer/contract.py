@@ -31,7 +31,7 @@ class Joints:
 
 @dataclass
 class Contract:
-    """Contract of format 1, checked."""
+    """Contract of a policy of the velocity task, of format 1, checked."""
 
     control_step_s: float
     joints: Joints
@@ -64,6 +64,11 @@ class Contract:
         """Numbers of one observation, all frames together."""
         return self.history * sum(size for _, size in self.observation)
 
+    @property
+    def outputs(self):
+        """Names of the entries of an action."""
+        return self.joints.names
+
 
 class Policy:
     """Network of an ONNX file, and its contract."""
@@ -80,7 +85,7 @@ class Policy:
         except Exception as why:  # noqa: BLE001: onnxruntime's errors have no common class
             raise TransferError(f"`{path}` is not an ONNX model ({one_line(why)}); {EXPORT}") from why
         if ENTRY not in metadata:
-            why = f"its metadata lacks `{ENTRY}`: it is not a policy of the velocity task"
+            why = f"its metadata lacks `{ENTRY}`: it is not a policy of a task that this program knows"
             raise TransferError(f"`{path}` has no contract, {why}; {EXPORT}")
         try:
             self.contract = read_contract(metadata[ENTRY])
@@ -88,7 +93,7 @@ class Policy:
             raise TransferError(f"the contract of `{path}` cannot be used: {why}; {EXPORT}") from why
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
         found = [inputs[0].shape[-1], outputs[0].shape[-1]]
-        wanted = [self.contract.width, len(self.contract.joints.names)]
+        wanted = [self.contract.width, len(self.contract.outputs)]
         if found != wanted:
             raise TransferError(
                 f"`{path}` has {found[0]} inputs and {found[1]} outputs, its contract {wanted[0]} and {wanted[1]}; {EXPORT}"
@@ -113,9 +118,14 @@ def read_contract(text):
         whole = json.loads(text)
     except ValueError as why:
         raise TransferError(f"it is not JSON ({why})") from why
-    fields = _Fields(whole, "")
+    fields = Fields(whole, "")
     if fields.get("format") != FORMAT:
         raise TransferError(f"`format` is {whole['format']}, but this program reads {FORMAT}")
+    if "motors" in whole:
+        # After this module, which it needs.
+        from .walk import read_walk_contract
+
+        return read_walk_contract(fields)
     joints = _joints(fields)
     scale = fields.numbers("action_scale", len(joints.names))
     commands, history, fall = fields.part("commands"), fields.part("history"), fields.part("fall")
@@ -159,7 +169,7 @@ def _joints(fields):
     return Joints(names, *(fields.numbers(key, len(names)) for key in keys))
 
 
-class _Fields:
+class Fields:
     """Fields of a JSON object, by whose path errors name them."""
 
     def __init__(self, of, path):
@@ -173,7 +183,7 @@ class _Fields:
         return self._of[key]
 
     def part(self, key):
-        return _Fields(self.get(key), f"{self.path}{key}.")
+        return Fields(self.get(key), f"{self.path}{key}.")
 
     def names(self, key):
         value = self.get(key)

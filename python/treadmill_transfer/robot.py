@@ -9,7 +9,7 @@ from .contract import TransferError, one_line
 from .ground import BASE_M
 
 _GEOMS = mujoco.mjtGeom
-_DIVERGED = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
+DIVERGED = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 # Height above everything, from which rays look down (m).
 _SKY_M = 1e3
 # Distance from the edge of a given ground at which an episode ends, as in training (m).
@@ -34,7 +34,7 @@ class Robot:
         _replace_servos(spec, path, contract, self.notes)
         # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
         spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-        _replace_floor(spec, ground, self.notes)
+        replace_floor(spec, ground, self.notes)
         self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
         try:
             self.model = spec.compile()
@@ -110,7 +110,7 @@ class Robot:
         self.data.ctrl[: len(targets_rad)] = targets_rad
         mujoco.mj_step(self.model, self.data, self.substeps)
         # MuJoCo puts a robot whose state diverged back to its start, and counts a warning.
-        return not any(self.data.warning[kind].number for kind in _DIVERGED)
+        return not any(self.data.warning[kind].number for kind in DIVERGED)
 
     def torques_nm(self):
         """Returns the torques of the policy's joints in the present state, with the targets of the last step."""
@@ -246,7 +246,7 @@ def substeps(control_step_s, file_s, wanted_s=None):
     return count, control_step_s / count
 
 
-def _plain_actuator():
+def plain_actuator():
     """Returns the attributes of an actuator of an empty model."""
     actuator = mujoco.MjSpec().add_actuator()
     own = {"classname", "compiler", "id", "info", "name", "plugin", "signature", "target", "userdata"}
@@ -263,7 +263,7 @@ def _replace_servos(spec, path, contract, notes):
     for name, what in [(contract.base_body, "the base"), *((foot, "a foot") for foot in contract.feet_bodies)]:
         if spec.body(name) is None:
             raise TransferError(f"the model `{path}` has no body `{name}`, {what} of the contract")
-    plain = _plain_actuator()
+    plain = plain_actuator()
     for joints in (contract.joints, contract.held):
         for index, name in enumerate(joints.names):
             joint = spec.joint(name)
@@ -288,7 +288,8 @@ def _replace_servos(spec, path, contract, notes):
             servo.gainprm[0], servo.biasprm[1], servo.biasprm[2] = kp, -kp, -kd
 
 
-def _replace_floor(spec, ground, notes):
+def replace_floor(spec, ground, notes):
+    """Puts a given ground in place of the model's floor, or a plane where there is none."""
     floors = [geom for geom in spec.geoms if geom.type in (_GEOMS.mjGEOM_PLANE, _GEOMS.mjGEOM_HFIELD)]
     if ground is None:
         if not floors:

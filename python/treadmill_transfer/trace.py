@@ -20,13 +20,13 @@ _ROOT_Q = ["base x", "base y", "base z", *(f"base quaternion {part}" for part in
 _ROOT_V = [f"base {kind} {axis}" for kind in ("velocity", "angular velocity") for axis in "xyz"]
 
 
-def read_trace(path, hinges):
-    """Returns the lines of a trace of a robot with so many hinges."""
+def read_trace(path, hinges, keys=KEYS):
+    """Returns the lines of a trace of a robot with so many hinges, with at least these keys."""
     lines = []
     try:
         with open(path, encoding="utf-8") as file:
             for number, text in enumerate(file, start=1):
-                lines.append(_read_line(path, number, text, hinges))
+                lines.append(_read_line(path, number, text, hinges, keys))
     except (OSError, UnicodeDecodeError) as why:
         raise TransferError(f"cannot read the trace `{path}`: {getattr(why, 'strerror', None) or why}") from why
     if not lines:
@@ -34,21 +34,28 @@ def read_trace(path, hinges):
     return lines
 
 
-def _read_line(path, number, text, hinges):
+def _read_line(path, number, text, hinges, keys):
     where = f"the trace `{path}`, line {number}:"
     try:
         line = json.loads(text)
-        missing = [key for key in KEYS if key not in line]
+        missing = [key for key in keys if key not in line]
         if missing:
             raise TransferError(f"{where} `{missing[0]}` is missing; write it with `treadmill eval RUN --trace FILE`")
-        for key in (key for key in KEYS if key != "episode"):
+        for key in (key for key in keys if key != "episode"):
             line[key] = numpy.array(line[key], dtype=float)
     except (TypeError, ValueError) as why:
         raise TransferError(f"{where} not a JSON object of numbers ({why})") from why
     for key, expected in (("qpos", 7 + hinges), ("qvel", 6 + hinges), ("torque", hinges), ("command", 3)):
-        if line[key].shape != (expected,):
+        if key in keys and line[key].shape != (expected,):
             raise TransferError(f"{where} `{key}` has {line[key].size} numbers, but the model needs {expected}")
     return line
+
+
+def largest_difference(found, expected, weight=1.0):
+    """Returns where two lists of numbers differ most, and by how much."""
+    off = numpy.abs(found - expected) * weight
+    entry = int(numpy.argmax(off))
+    return entry, float(off[entry])
 
 
 def compare(robot, controller, lines, tolerances):
@@ -69,10 +76,9 @@ def compare(robot, controller, lines, tolerances):
             nonlocal first
             if len(found) != len(expected):
                 raise TransferError(f"{boundary} of step {step}: {len(expected)} numbers in the trace, {len(found)} here")
-            off = numpy.abs(found - expected) * weight
-            entry = int(numpy.argmax(off))
-            largest[boundary] = max(largest[boundary], float(off[entry]))
-            if first is None and not off[entry] <= tolerances[boundary]:
+            entry, off = largest_difference(found, expected, weight)
+            largest[boundary] = max(largest[boundary], off)
+            if first is None and not off <= tolerances[boundary]:
                 values = {"here": float(found[entry]), "trace": float(expected[entry])}
                 tolerance = tolerances[boundary] / (weight[entry] if numpy.ndim(weight) else weight)
                 first = {"boundary": boundary, "episode": episode, "step": step, "entry": name_of(entry), **values}

@@ -18,7 +18,7 @@ use time::{Duration, OffsetDateTime};
 use treadmill_bus::{Credentials, Role};
 
 use crate::{
-    diagnosis::certificates,
+    diagnosis::{certificates, finding::Severity},
     launch::{exit_code::Usage, output::say},
 };
 
@@ -51,11 +51,20 @@ pub struct CertsArgs {
 pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     let folder = &args.folder;
     let made = make(args)?;
-    match made.is_empty() {
-        true => say("nothing to do: all certificates exist; --host adds a host, --renew replaces them all"),
-        false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
+    let findings = certificates::diagnose(folder);
+    let problems = findings.iter().filter(|finding| finding.severity == Severity::Problem).count();
+    match (made.is_empty(), problems) {
+        (true, 0) => say("nothing to do: all certificates exist; --host adds a host, --renew replaces them all"),
+        (true, _) => say("wrote nothing: all files exist"),
+        (false, _) => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
     }
-    certificates::diagnose(folder).iter().for_each(|finding| say(&finding.to_string()));
+    findings.iter().for_each(|finding| say(&finding.to_string()));
+    if problems > 0 {
+        anyhow::bail!(
+            "{problems} of the certificates in `{}` cannot be used as they are; see above, or replace them all by --renew",
+            folder.display()
+        );
+    }
     if let Some(bundles) = &args.bundles {
         for role in Role::ALL {
             write_bundle(folder, role, &bundles.join(role.name()))?;

@@ -12,7 +12,10 @@ use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     diagnosis::certificates,
-    launch::{async_runtime, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, restart::restart, router_session, signals},
+    launch::{
+        async_runtime, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, restart::restart,
+        router_session, signals,
+    },
     shared::network_args::NetworkArgs,
 };
 

@@ -1,6 +1,6 @@
 //! Diagnosis of a folder of certificates: role, validity, authority, hosts, and privacy of keys.
 
-use std::{net::IpAddr, os::unix::fs::PermissionsExt, path::Path, sync::Arc};
+use std::{fs, io, net::IpAddr, os::unix::fs::PermissionsExt, path::Path, sync::Arc};
 
 use rustls::{
     CertificateError, RootCertStore,
@@ -91,6 +91,7 @@ fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Resul
     let [certificate_file, key_file] = Credentials { folder: folder.to_path_buf(), role }.files();
     let shown = certificate_file.display();
     let unreadable = |why: String| Finding::problem(NAME, format!("{shown} is not a certificate: {why}"), COPY_ANEW);
+    check_readable(&certificate_file)?;
     let der = CertificateDer::from_pem_file(&certificate_file).map_err(|why| unreadable(why.to_string()))?;
     let (_, certificate) = X509Certificate::from_der(&der).map_err(|why| unreadable(why.to_string()))?;
     let validity = check_validity(role, &certificate)?;
@@ -135,14 +136,25 @@ fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, 
 /// Tests that the private key matches the certificate.
 fn check_key(der: &CertificateDer, certificate: &str, file: &Path) -> Result<(), Finding> {
     let shown = file.display();
+    let problem = |what: String| Finding::problem(NAME, format!("{shown} {what}"), COPY_ANEW);
+    check_readable(file)?;
+    let key = PrivateKeyDer::from_pem_file(file).map_err(|why| problem(format!("is not a private key: {why}")))?;
     let provider = rustls::crypto::ring::default_provider();
-    PrivateKeyDer::from_pem_file(file)
-        .map_err(|why| why.to_string())
-        .and_then(|key| {
-            CertifiedKey::from_der(vec![der.clone().into_owned()], key, &provider).map_err(|why| why.to_string())
-        })
-        .map_err(|why| Finding::problem(NAME, format!("{shown} does not match {certificate}: {why}"), COPY_ANEW))?;
+    CertifiedKey::from_der(vec![der.clone().into_owned()], key, &provider)
+        .map_err(|why| problem(format!("does not match {certificate}: {why}")))?;
     Ok(())
+}
+
+/// Tests that this user may read a file.
+fn check_readable(file: &Path) -> Result<(), Finding> {
+    let remedy = match fs::File::open(file).map_err(|why| (why.kind(), why)) {
+        Ok(_) => return Ok(()),
+        Err((io::ErrorKind::PermissionDenied, why)) => {
+            (why, "give this user the right to read it, or run this as its owner")
+        }
+        Err((_, why)) => (why, COPY_ANEW),
+    };
+    Err(Finding::problem(NAME, format!("{} cannot be read: {}", file.display(), remedy.0), remedy.1))
 }
 
 /// Tests that only its owner can read a private key. No link fails because of that.

@@ -9,7 +9,9 @@ use treadmill_bus::{Bus, BusOptions, Role};
 use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
-use super::{async_runtime, exit_code::Usage, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, signals};
+use super::{
+    async_runtime, exit_code::Usage, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, signals,
+};
 use crate::{
     diagnosis::{Silence, certificates},
     shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},

@@ -97,7 +97,13 @@ impl LearnerRun<'_> {
         match self.read_first(store, host).await? {
             None if self.is_standby => Ok(None),
             None => block_in_place(|| self.begin_new(store)).map(Some),
-            Some(_) if self.follows() => Ok(None),
+            Some((manifest, _)) if self.follows() => {
+                // Found now rather than when it is to lead.
+                let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &manifest.run, &store.to_string())?;
+                drop(RunLock::take(&folder)?);
+                folder.discard();
+                Ok(None)
+            }
             Some((manifest, _)) => Err(Usage(format!(
                 "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow \
                  it with `treadmill learner --standby`, or choose another URL",

@@ -26,7 +26,12 @@ fn is_usage(why: &anyhow::Error) -> bool {
             || cause.is::<ConfigError>()
             || matches!(
                 cause.downcast_ref(),
-                Some(RunFolderError::Missing { .. } | RunFolderError::Taken { .. } | RunFolderError::InUse { .. })
+                Some(
+                    RunFolderError::Missing { .. }
+                        | RunFolderError::Unreadable { .. }
+                        | RunFolderError::Taken { .. }
+                        | RunFolderError::InUse { .. }
+                )
             )
             || matches!(cause.downcast_ref(), Some(BusError::Endpoint { .. }))
     })

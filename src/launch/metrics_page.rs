@@ -154,7 +154,11 @@ impl PageContent for LearnerPage {
     fn health(&self) -> Result<(), String> {
         self.liveness()?;
         // Unknown while it waits for a store or for another leader.
-        if self.metrics.value("actors/alive") == Some(0.0) { Err("no actors are connected".to_string()) } else { Ok(()) }
+        if self.metrics.value("actors/alive") == Some(0.0) {
+            Err("no actors are connected".to_string())
+        } else {
+            Ok(())
+        }
     }
 }
 

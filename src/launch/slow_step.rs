@@ -9,7 +9,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-
 /// Time after which the first notice is printed.
 const FIRST_AFTER: Duration = Duration::from_secs(2);
 /// Time between two notices.

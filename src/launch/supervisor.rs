@@ -17,7 +17,6 @@ use tokio::{
 };
 use treadmill_runtime::shutdown::Shutdown;
 
-
 /// A process that ends sooner than this counts as a failed start.
 const FAILED_START: Duration = Duration::from_secs(5);
 /// Failed starts in a row after which a process is given up.

@@ -48,6 +48,26 @@ impl ReachArgs {
         RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
     }
 
+    /// Returns the folder of the run that was given, if one was and it is no store.
+    ///
+    /// # Errors
+    /// If it is missing or cannot be read.
+    pub fn run_folder(&self) -> anyhow::Result<Option<RunFolder>> {
+        let given = self.folder.as_ref().filter(|run| !run.contains("://"));
+        Ok(given.map(|run| RunFolder::open(run)).transpose()?)
+    }
+
+    /// Returns the store that was given, or that of the run whose folder was given.
+    #[must_use]
+    pub fn store_url(&self) -> Option<String> {
+        let given = self.folder.as_ref()?;
+        if given.contains("://") {
+            return Some(given.clone());
+        }
+        let text = fs::read_to_string(RunFolder::open(given).ok()?.store()).ok()?;
+        Some(text.trim().to_string())
+    }
+
     /// Returns the folder of the run that was given, if no process trains it now.
     #[must_use]
     pub fn idle_folder(&self) -> Option<RunFolder> {

@@ -1,8 +1,11 @@
 //! Checkpoint of a run that a RUN argument names: a folder, a name below `runs/`, or the URL of a store.
 
 use treadmill_learner::{
-    checkpoint::{self, CheckpointChoice, Loaded},
-    leadership::follower::{LoadedState, newest_state},
+    checkpoint::{self, CheckpointChoice, Loaded, TrainingState},
+    leadership::{
+        Manifest,
+        follower::{LoadedState, newest_state},
+    },
 };
 use treadmill_runtime::{error_chain, run_folder::RunFolder};
 use treadmill_store::{Store, StoreError};
@@ -39,13 +42,25 @@ fn load_stored(url: &str, which: CheckpointChoice) -> anyhow::Result<Loaded> {
     Ok(Loaded { state: checkpoint::read(&format!("{store}/{object}"), &bytes)?, name })
 }
 
+/// Reads the newest state of the run in a store, and the manifest that names it.
+///
+/// # Errors
+/// If the store cannot be read, or holds no run.
+pub fn of_store(url: &str) -> anyhow::Result<(TrainingState, Manifest)> {
+    let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
+    let found = newest(&store)?;
+    Ok((checkpoint::read(&format!("{store}/{}", found.manifest.state), &found.state)?, found.manifest))
+}
+
 fn load_newest(store: &Store) -> anyhow::Result<Loaded> {
-    let Some(LoadedState { manifest, state, .. }) = newest_state(store)? else {
-        return Err(Usage(format!(
-            "the store `{store}` holds no run; begin one with `treadmill learner --store {store}`"
-        ))
-        .into());
-    };
+    let LoadedState { manifest, state, .. } = newest(store)?;
     let state = checkpoint::read(&format!("{store}/{}", manifest.state), &state)?;
     Ok(Loaded { state, name: "latest".to_string() })
+}
+
+fn newest(store: &Store) -> anyhow::Result<LoadedState> {
+    newest_state(store)?.ok_or_else(|| {
+        let why = format!("the store `{store}` holds no run; begin one with `treadmill learner --store {store}`");
+        Usage(why).into()
+    })
 }

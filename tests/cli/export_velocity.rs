@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 const CARD: &str = "
 model = 'robot.xml'
 feet = ['left_foot', 'right_foot']
-height_m = 0.75
+height_m = 0.81
 [[hinges]]
 names = '*'
 effort_nm = 60.0
@@ -119,7 +119,7 @@ fn check_metadata(model: &[u8]) {
         ("action_limit", json!(4.0)),
         ("base_body", json!("pelvis")),
         ("feet_bodies", json!(["left_foot", "right_foot"])),
-        ("default_base_height_m", json!(0.75)),
+        ("default_base_height_m", json!(0.81)),
         ("gait_period_s", json!(0.7)),
         ("gait_rests_below", json!(0.1)),
         ("push_mps", json!([0.1, 0.5])),
@@ -130,7 +130,7 @@ fn check_metadata(model: &[u8]) {
     assert_eq!(contract["history"]["frames"], 2);
     assert_eq!(contract["commands"]["lin_vel_x_mps"], json!([-0.4, 0.9]));
     assert_eq!(contract["fall"]["tilt_rad"], 1.0);
-    assert!((contract["fall"]["height_m"].as_f64().unwrap() - 0.6 * 0.75).abs() < 1e-12);
+    assert!((contract["fall"]["height_m"].as_f64().unwrap() - 0.6 * 0.81).abs() < 1e-12);
     let of_knee = ["joint_effort", "joint_armature"].map(|key| numbers(&contract[key])[KNEE]);
     assert_eq!(of_knee, [120.0, 0.025]);
     let term = &contract["observation"][3];

@@ -11,6 +11,7 @@ mod lifecycle;
 mod model;
 mod runs;
 mod slips;
+mod states;
 #[path = "../support/mod.rs"]
 mod support;
 mod usage;

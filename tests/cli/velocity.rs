@@ -136,3 +136,36 @@ fn a_robot_that_is_to_stand_is_measured_standing() {
     let walking = last_json(&run_with(folder, &[&args[..4], &["--json", "--set", "velocity.standing_share=0"]]));
     assert_eq!(walking["standing_drift_m"], Value::Null);
 }
+
+#[test]
+fn a_robot_that_is_described_wrongly_is_refused_before_it_is_trained() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
+    let train = |card: &str, more: &[&str]| {
+        fs::write(folder.join("robot.toml"), card).unwrap();
+        let args = ["train", "--model", "robot.toml", "--set", "env.task=velocity", "--steps", "512", "--actors", "1"];
+        run(folder, &[&args[..], &["--preset", "smoke", "--run-dir", "never"], more].concat())
+    };
+    for (feet, parts) in [
+        ("['left_foot', 'left_foot']", ["`left_foot` twice", "the right foot"]),
+        ("['right_foot', 'left_foot']", ["left foot first", "`right_foot`"]),
+    ] {
+        let card = CARD.replace("['left_foot', 'right_foot']", feet);
+        assert_refused(&train(&card, &[]), 2, &[&parts[..], &["model file `robot.toml`"]].concat());
+    }
+    assert_refused(
+        &train(&format!("height_m = 0.3\n{CARD}"), &[]),
+        2,
+        &["deep in the ground", "`height_m` of the card"],
+    );
+    assert!(!folder.join("never").exists());
+    fs::write(folder.join("robot.toml"), CARD).unwrap();
+    let report = last_json(&run(folder, &["robot", "robot.toml", "--json"]));
+    assert_eq!(report["axes"], serde_json::json!({"forward": "+x", "up": "+z"}));
+    assert_eq!(report["on_ground_at_home"], serde_json::json!(["left_foot", "right_foot"]), "{report}");
+    let text = stdout(&run(folder, &["robot", "robot.toml"]));
+    for part in ["axes       of the base: +x forward, +z up", "at home    on the ground: left_foot", "bodies     "] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+}

@@ -232,7 +232,12 @@ fn prometheus_evaluates_the_alarms_on_a_run() {
     let rules = || {
         let rules = state("/api/v1/rules")?["data"]["groups"][0]["rules"].as_array()?.clone();
         let text = |rule: &serde_json::Value, key: &str| rule[key].as_str().unwrap_or_default().to_string();
-        Some(rules.iter().map(|rule| [text(rule, "name"), text(rule, "health"), text(rule, "state")]).collect::<Vec<_>>())
+        Some(
+            rules
+                .iter()
+                .map(|rule| [text(rule, "name"), text(rule, "health"), text(rule, "state")])
+                .collect::<Vec<_>>(),
+        )
     };
     await_that("a scrape", || {
         let up = state("/api/v1/query?query=treadmill_time_iterations_total")?;

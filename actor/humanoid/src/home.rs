@@ -85,7 +85,8 @@ impl HomePose {
         let lowest = (0..model.links.len()).filter_map(|link| Some((link, clearance_m(model, physics, link)?)));
         let Some((link, height_m)) = lowest.min_by(|one, other| one.1.total_cmp(&other.1)) else {
             return self.faults.push(
-                "no shape of the robot can touch the ground; check contype, conaffinity and <pair> in the model".to_string(),
+                "no shape of the robot can touch the ground; check contype, conaffinity and <pair> in the model"
+                    .to_string(),
             );
         };
         let name = &model.links[link].name;
@@ -163,9 +164,7 @@ impl HomePose {
     /// Simulates the default pose with its servos at rest there.
     fn simulate(&mut self, model: &Model, environment: &mut Environment) {
         let action: Vec<f32> = match &model.robot {
-            Some(robot) => {
-                model.motors.iter().map(|motor| robot.default_position[7 + motor.hinge] as f32).collect()
-            }
+            Some(robot) => model.motors.iter().map(|motor| robot.default_position[7 + motor.hinge] as f32).collect(),
             None => vec![0.0; model.motors.len()],
         };
         let mut observation = vec![0.0; environment.observation_size()];
@@ -191,7 +190,7 @@ impl HomePose {
                 if step <= STEPS_MIN {
                     let height_m = environment.physics().torso_height_m();
                     self.faults.push(format!(
-                        "an episode ends after {step} steps although the robot only keeps its default pose, with the base \
+                        "an episode ends after {step} steps, although the robot only keeps its default pose, with the base \
                          `{}` at {height_m:.3} m; see velocity.fall_height_share, velocity.fall_tilt_rad, \
                          env.healthy_z_range, and the start's height",
                         model.links[0].name
@@ -200,7 +199,8 @@ impl HomePose {
                 break;
             }
         }
-        self.touching = (0..touches.len()).filter(|link| touches[*link]).map(|link| model.links[link].name.clone()).collect();
+        self.touching =
+            (0..touches.len()).filter(|link| touches[*link]).map(|link| model.links[link].name.clone()).collect();
         if !others.is_empty() {
             self.warnings.push(format!(
                 "`{}` touches the ground in the default pose, but is no foot; raise it, or add it to `feet`",
@@ -283,7 +283,9 @@ fn lowest_m(geometry: &Geometry, body: &Isometry3<f64>) -> f64 {
         }
         Geometry::Box { pose, half_m } => centre_m - down(pose).abs().dot(half_m),
         Geometry::Ellipsoid { pose, half_m } => centre_m - down(pose).component_mul(half_m).norm(),
-        Geometry::Hull { vertices_m } => vertices_m.iter().map(|vertex| (body * vertex).z).fold(f64::INFINITY, f64::min),
+        Geometry::Hull { vertices_m } => {
+            vertices_m.iter().map(|vertex| (body * vertex).z).fold(f64::INFINITY, f64::min)
+        }
     }
 }
 
@@ -349,10 +351,25 @@ mod tests {
             let all = found.faults.join("\n");
             assert!(parts.iter().all(|part| all.contains(part)), "{parts:?} in {all}");
         }
-        let smooth = named(FEET_NAMES).replace(r#"size=".1 .04 .02""#, r#"size=".1 .04 .02" contype="0" conaffinity="0""#);
+        let smooth =
+            named(FEET_NAMES).replace(r#"size=".1 .04 .02""#, r#"size=".1 .04 .02" contype="0" conaffinity="0""#);
         assert!(examine(&smooth).faults[0].contains("no shape that can touch the ground"), "{smooth}");
         let above = examine(&at("0.7"));
         assert!(above.faults.is_empty() && above.warnings[0].contains("0.150 m above"), "{above:?}");
+    }
+
+    #[test]
+    fn thresholds_of_another_robot_end_every_episode() {
+        let mut config = EnvironmentConfig::default();
+        config.env.healthy_z_range = [0.2, 0.9];
+        let found = HomePose::of(&config, crate::HUMANOID_XML, &TaskRegistry::default()).unwrap();
+        assert!(
+            found.faults[0].contains("ends after 1 steps") && found.faults[0].contains("healthy_z_range"),
+            "{found:?}"
+        );
+        config.env.healthy_z_range = [1.0, 2.0];
+        let found = HomePose::of(&config, crate::HUMANOID_XML, &TaskRegistry::default()).unwrap();
+        assert_eq!((found.faults, found.up), (Vec::new(), "+z"));
     }
 
     #[test]
@@ -365,8 +382,9 @@ mod tests {
         let ball: Vec<Vector3<f64>> = around(400)
             .flat_map(|a| around(400).map(move |b| Vector3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin())))
             .collect();
-        let disc: Vec<Vector3<f64>> =
-            around(2000).flat_map(|a| [-1.0, 1.0].map(|z| Vector3::new(0.1 * a.cos(), 0.1 * a.sin(), 0.3 * z))).collect();
+        let disc: Vec<Vector3<f64>> = around(2000)
+            .flat_map(|a| [-1.0, 1.0].map(|z| Vector3::new(0.1 * a.cos(), 0.1 * a.sin(), 0.3 * z)))
+            .collect();
         let corners: Vec<Vector3<f64>> = (0..8)
             .map(|n| half_m.component_mul(&Vector3::from_fn(|axis, _| if n >> axis & 1 == 0 { -1.0 } else { 1.0 })))
             .collect();

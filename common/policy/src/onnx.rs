@@ -7,8 +7,8 @@ use crate::exported::{ActionFacts, ExportedPolicy};
 /// What a model has for the controller of a robot.
 #[derive(Clone, Debug)]
 pub struct ForController {
-    /// Largest action, in the unit of action of each joint; replaces the ranges of the motors.
-    pub action_limit: f32,
+    /// Largest action, in the unit of action of each joint; replaces the ranges of the motors, if there is one.
+    pub action_limit: Option<f32>,
     /// Input and output of the model.
     pub ports: Ports,
     /// Metadata entries beside `treadmill.*`.
@@ -29,13 +29,13 @@ pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> V
         ("control_step_s", policy.control_step_s.to_string()),
     ];
     let metadata = metadata.map(|(key, value)| (format!("treadmill.{key}"), value)).into_iter();
-    let (low, high, doc) = match controller {
+    let (low, high, doc) = match controller.and_then(|of| of.action_limit) {
         None => {
             let ActionFacts { low, high, .. } = &policy.action;
             (low.clone(), high.clone(), "raw observations to actions in the units of the motors")
         }
-        Some(ForController { action_limit, .. }) => {
-            let high = vec![*action_limit; policy.shape.action];
+        Some(action_limit) => {
+            let high = vec![action_limit; policy.shape.action];
             (high.iter().map(|end| -end).collect(), high, "raw observations to actions in units of action_scale")
         }
     };

@@ -15,6 +15,8 @@ pub struct Holder {
     pub endpoint: String,
     /// Its epoch; 0 if the lock's file does not say.
     pub epoch: u64,
+    /// Whether it has not said that it ended.
+    pub is_left_behind: bool,
 }
 
 impl Holder {
@@ -26,7 +28,8 @@ impl Holder {
         let text = |key: &str| value[key].as_str().unwrap_or_default().to_string();
         let pid = value["pid"].as_u64().and_then(|pid| u32::try_from(pid).ok());
         let epoch = value["epoch"].as_u64().unwrap_or_default();
-        Self { pid, host: text("host"), endpoint: text("endpoint"), epoch }
+        let is_left_behind = value["ended"].as_bool() == Some(false);
+        Self { pid, host: text("host"), endpoint: text("endpoint"), epoch, is_left_behind }
     }
 }
 

@@ -53,6 +53,14 @@ pub enum RunFolderError {
         /// Runs that exist.
         known: String,
     },
+    /// The run cannot be read.
+    #[error("the run folder `{path}` cannot be read; give this user the right to read it, or run this as its owner")]
+    Unreadable {
+        /// The folder.
+        path: String,
+        /// The system's error.
+        source: io::Error,
+    },
     /// The folder already holds a run.
     #[error("`{path}` already holds a run; continue it with `--resume {}`, or choose another --run-dir", quoted(path))]
     Taken {
@@ -154,11 +162,17 @@ impl RunFolder {
     /// Opens the folder of an existing run, by path or by name below `runs/`.
     pub fn open(run: &str) -> Result<Self, RunFolderError> {
         let given = Path::new(run);
-        [given.to_path_buf(), Path::new("runs").join(given)]
-            .into_iter()
-            .map(|root| Self::at(&root))
-            .find(|folder| folder.checkpoints().is_dir())
-            .ok_or_else(|| RunFolderError::Missing { path: run.to_string(), known: known_runs(run) })
+        for root in [given.to_path_buf(), Path::new("runs").join(given)] {
+            let folder = Self::at(&root);
+            match fs::metadata(folder.checkpoints()) {
+                Ok(facts) if facts.is_dir() => return Ok(folder),
+                Err(why) if why.kind() == io::ErrorKind::PermissionDenied => {
+                    return Err(RunFolderError::Unreadable { path: root.display().to_string(), source: why });
+                }
+                _ => {}
+            }
+        }
+        Err(RunFolderError::Missing { path: run.to_string(), known: known_runs(run) })
     }
 
     fn at(root: &Path) -> Self {

@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::{
     epoch,
@@ -35,9 +35,9 @@ impl RunLock {
     pub fn take(folder: &RunFolder) -> Result<Self, RunFolderError> {
         let io = |source| RunFolderError::Io { path: folder.root().display().to_string(), source };
         let open = OpenOptions::new().create(true).truncate(false).write(true).open(folder.lock());
-        let mut lock = Self { file: open.map_err(io)?, epoch: 0 };
+        let file = open.map_err(io)?;
         for attempt in 1.. {
-            match lock.file.try_lock() {
+            match file.try_lock() {
                 Ok(()) => break,
                 Err(TryLockError::WouldBlock) if attempt < ATTEMPTS => thread::sleep(RETRY),
                 Err(TryLockError::WouldBlock) => {
@@ -47,7 +47,7 @@ impl RunLock {
                 Err(TryLockError::Error(source)) => return Err(io(source)),
             }
         }
-        lock.epoch = epoch::next(Holder::read(&folder.lock()).epoch);
+        let mut lock = Self { file, epoch: epoch::next(Holder::read(&folder.lock()).epoch) };
         lock.set_endpoint("").map_err(io)?;
         Ok(lock)
     }
@@ -64,12 +64,29 @@ impl RunLock {
     /// The system's error.
     pub fn set_endpoint(&mut self, endpoint: &str) -> io::Result<()> {
         let (pid, host) = (std::process::id(), machine::host_name());
-        let holder = json!({"pid": pid, "host": host, "endpoint": endpoint, "epoch": self.epoch});
-        // The same file, because the lock belongs to it.
-        self.file.set_len(0)?;
-        self.file.rewind()?;
-        writeln!(self.file, "{holder}")
+        self.write(&json!({"pid": pid, "host": host, "endpoint": endpoint, "epoch": self.epoch, "ended": false}))
     }
+
+    fn write(&mut self, holder: &Value) -> io::Result<()> {
+        let line = format!("{holder}\n");
+        // The same file, because the lock belongs to it; never empty, because the epoch must outlast a full disk.
+        self.file.rewind()?;
+        self.file.write_all(line.as_bytes())?;
+        self.file.set_len(line.len() as u64)
+    }
+}
+
+impl Drop for RunLock {
+    fn drop(&mut self) {
+        // A process that is killed does not come here, which `was_killed` sees.
+        let _ = self.write(&json!({"epoch": self.epoch, "ended": true}));
+    }
+}
+
+/// Returns whether the last process that wrote into `folder` ended without leaving, as one that was killed.
+#[must_use]
+pub fn was_killed(folder: &RunFolder) -> bool {
+    holder(folder).is_none() && Holder::read(&folder.lock()).is_left_behind
 }
 
 /// Returns the process that writes into `folder` now, if there is one.
@@ -95,8 +112,12 @@ mod tests {
         let refused = RunLock::take(&run).unwrap_err().to_string();
         assert!(refused.contains("which listens on tcp/127.0.0.1:7"), "{refused}");
         assert_eq!(holder(&run).unwrap().pid, Some(std::process::id()));
+        assert!(!was_killed(&run), "it lives");
+        let written = std::fs::read(run.lock()).unwrap();
         drop(lock);
-        assert_eq!(holder(&run), None);
+        assert_eq!((holder(&run), was_killed(&run)), (None, false));
+        std::fs::write(run.lock(), written).unwrap();
+        assert!(was_killed(&run), "nothing was written at its end");
         assert!(RunLock::take(&run).unwrap().epoch() > epoch, "each holder has a higher one");
     }
 

@@ -65,6 +65,11 @@ pub struct Loaded {
     pub state: TrainingState,
 }
 
+/// Returns what is left where a checkpoint could not be saved.
+fn before(path: &str) -> &'static str {
+    if Path::new(path).exists() { "the one before it is untouched" } else { "there is none before it" }
+}
+
 /// Why a checkpoint cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
@@ -124,7 +129,7 @@ pub enum CheckpointError {
         why: String,
     },
     /// It cannot be written.
-    #[error("cannot save checkpoint `{path}`; the one before it is untouched")]
+    #[error("cannot save checkpoint `{path}`; {}", before(path))]
     Write {
         /// Its path.
         path: String,

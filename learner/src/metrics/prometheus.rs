@@ -121,7 +121,8 @@ impl Collector for PrometheusMetrics {
             metric.encode(&mut encoder, std::iter::once(([("", ""); 0], *value)))?;
         }
         for (index, (tag, _)) in actor_metrics().enumerate() {
-            let known = newest.actors.iter().filter_map(|(actor, values)| Some(([("actor", actor.as_str())], values[index]?)));
+            let known =
+                newest.actors.iter().filter_map(|(actor, values)| Some(([("actor", actor.as_str())], values[index]?)));
             Exported::of(tag).encode(&mut encoder, known)?;
         }
         let version = [("version", program::version())];
@@ -158,7 +159,8 @@ impl Exported {
         let (group, name) = tag.split_once('/').unwrap_or(("", tag));
         let name = ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
         let is_total = row.is_some_and(|row| row.is_total);
-        let name = if is_total { name.trim_start_matches("total_").trim_start_matches(&format!("{group}_")) } else { name };
+        let name =
+            if is_total { name.trim_start_matches("total_").trim_start_matches(&format!("{group}_")) } else { name };
         let family = format!("treadmill_{group}_{name}").trim_end_matches('_').to_string() + base;
         let family = family.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
         let help = row.map_or("A metric of Treadmill", |row| row.help).replace(['`', '"', '\\'], "");

@@ -6,7 +6,7 @@ use treadmill_config::{Config, LearnerMode};
 use treadmill_ppo::{UpdateError, UpdateStats};
 use treadmill_runtime::error_chain;
 
-use crate::{intake::Rejections, metrics::Efficiency};
+use crate::{checkpoint::EpisodeMeans, intake::Rejections, metrics::Efficiency};
 
 /// Share of the simulated steps below which waste is an alarm.
 const USED_SHARE_MIN: f64 = 0.9;
@@ -14,6 +14,13 @@ const USED_SHARE_MIN: f64 = 0.9;
 const LASTS: Duration = Duration::from_secs(60);
 /// Time for which steps are wasted before that is an alarm.
 const WASTE_LASTS: Duration = Duration::from_secs(10);
+/// Mean length of episodes, in control steps, that is an alarm after so many updates in a row.
+const SHORT_STEPS: f64 = 5.0;
+const SHORT_UPDATES: u32 = 20;
+/// Updates for which a curriculum may stay where it begins although most episodes survive; values of that beginning.
+const STALLED_UPDATES: u32 = 50;
+const FIRST_LEVELS: f64 = 0.05;
+const FIRST_FACTORS: f64 = 0.42;
 /// Most senders that are named.
 const SENDERS_MAX: usize = 4;
 
@@ -25,9 +32,52 @@ pub(super) struct Alarms {
     wasting_since: Option<Instant>,
     logged: Option<Instant>,
     undone: Option<(Instant, String)>,
+    /// Updates in a row with short episodes, and with a curriculum that stands still.
+    short_updates: u32,
+    stalled_updates: u32,
+    episodes: Vec<String>,
+    episodes_logged: Option<Instant>,
 }
 
 impl Alarms {
+    /// Records how the last episodes went, after an update.
+    pub(super) fn record_episodes(&mut self, means: Option<EpisodeMeans>, config: &Config, now: Instant) {
+        let Some(means) = means else { return };
+        let count = |updates: u32, is_so: bool| if is_so { updates.saturating_add(1) } else { 0 };
+        self.short_updates = count(self.short_updates, means.length_mean <= SHORT_STEPS);
+        let is_low = config.ground.curriculum
+            && config.ground.start_level == 0
+            && config.ground.levels > 1
+            && means.ground_level.is_some_and(|level| level < FIRST_LEVELS);
+        let is_slow = means.command_factor.is_some_and(|factor| factor < FIRST_FACTORS);
+        let survives = means.fall_fraction < 0.5;
+        self.stalled_updates = count(self.stalled_updates, survives && (is_low || is_slow));
+        self.episodes.clear();
+        if self.short_updates >= SHORT_UPDATES {
+            self.episodes.push(format!(
+                "episodes end after {:.1} steps, for {} updates, which teaches nothing: see how the robot starts by \
+                 `treadmill robot FILE`, and velocity.fall_height_share, velocity.fall_tilt_rad or env.healthy_z_range",
+                means.length_mean, self.short_updates
+            ));
+        }
+        if self.stalled_updates >= STALLED_UPDATES {
+            let (what, why) = match is_low {
+                true => ("ground", "cover less than half of the way that is commanded"),
+                false => ("commands", "cover less than 0.7 of the way that is commanded, or track it worse than that"),
+            };
+            self.episodes.push(format!(
+                "the curriculum of the {what} stands still, for {} updates: {:.0} % of the episodes survive, but they {why}; \
+                 see eval/velocity_error, the ranges of [velocity], and the rewards for tracking",
+                self.stalled_updates,
+                100.0 * (1.0 - means.fall_fraction)
+            ));
+        }
+        if !self.episodes.is_empty() && self.episodes_logged.is_none_or(|logged| now.duration_since(logged) >= LASTS) {
+            self.episodes_logged = Some(now);
+            self.episodes.iter().for_each(|text| tracing::warn!("{text}"));
+        }
+    }
+
     /// Records the efficiency after an update. `late` fragments were too old, in this run. The first updates say little:
     /// waste is an alarm once it has lasted, and is logged once a minute.
     pub(super) fn record_efficiency(
@@ -88,7 +138,7 @@ impl Alarms {
                 "fragments of `{sender}` were rejected ({count}), the last because {reason}; stop or repair that actor"
             )
         });
-        self.waste.iter().chain(undone).cloned().chain(rejected).collect()
+        self.waste.iter().chain(undone).chain(&self.episodes).cloned().chain(rejected).collect()
     }
 }
 
@@ -139,5 +189,33 @@ mod tests {
             alarms.record_efficiency(wasteful, [late, undone], &config, now + WASTE_LASTS);
             assert!(alarms.texts(&rejections, now + LASTS)[0].contains(wanted), "{wanted}");
         }
+    }
+
+    #[test]
+    fn episodes_that_teach_nothing_and_curricula_that_stand_still_are_alarms() {
+        let (mut alarms, rejections, now) = (Alarms::default(), Rejections::default(), Instant::now());
+        let mut config = Config::default();
+        config.ground.levels = 10;
+        let means = |length_mean, fall_fraction, level| EpisodeMeans {
+            length_mean,
+            fall_fraction,
+            ground_level: Some(level),
+            ..EpisodeMeans::default()
+        };
+        let record = |alarms: &mut Alarms, updates: u32, means: EpisodeMeans| {
+            (0..updates).for_each(|_| alarms.record_episodes(Some(means), &config, now));
+            alarms.texts(&rejections, now)
+        };
+        assert!(record(&mut alarms, SHORT_UPDATES - 1, means(1.0, 1.0, 0.0)).is_empty());
+        let texts = record(&mut alarms, 1, means(1.0, 1.0, 0.0));
+        assert!(
+            texts[0].contains("after 1.0 steps, for 20 updates") && texts[0].contains("treadmill robot"),
+            "{texts:?}"
+        );
+        assert!(record(&mut alarms, 200, means(40.0, 1.0, 0.0)).is_empty(), "it still learns to stand");
+        assert!(record(&mut alarms, STALLED_UPDATES - 1, means(900.0, 0.1, 0.0)).is_empty());
+        let texts = record(&mut alarms, 1, means(900.0, 0.1, 0.0));
+        assert!(texts[0].contains("90 % of the episodes survive") && texts[0].contains("half of the way"), "{texts:?}");
+        assert!(record(&mut alarms, 1, means(900.0, 0.1, 0.5)).is_empty(), "it rises");
     }
 }

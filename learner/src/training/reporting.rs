@@ -172,6 +172,7 @@ impl Reporting {
             self.efficiency_meter.mark(Instant::now(), env_steps, serving.waited, learnt, effort, alive.len());
         let losses = [validator.counts.too_old, state.counters.undone_updates];
         self.alarms.record_efficiency(self.efficiency, losses, config, Instant::now());
+        self.alarms.record_episodes(state.episodes.means(), config, Instant::now());
         self.lag_mean = lag.mean;
         let is_due = self.is_due(state, config, evaluation.is_some());
         let stats = self.stats.newest();

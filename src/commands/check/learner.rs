@@ -18,6 +18,8 @@ use crate::{
 const NAME: &str = "learner";
 const VERSIONS: &str = "versions";
 const SKEW: &str = "clock skew";
+const ALARM: &str = "alarm";
+const ALARM_REMEDY: &str = "see docs/operations/troubleshooting.md";
 
 /// Timeout for opening the bus when a process listens.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(8);
@@ -57,7 +59,10 @@ impl LearnerRoute {
             _ => None,
         };
         let reach = &ReachArgs { folder: live.or(reach.folder.clone()), ..reach.clone() };
-        let names_no_learner = reach.folder.is_none() && reach.run.is_none() && reach.connect.is_empty();
+        // A store does not say where its learner listens.
+        let names_no_learner = reach.folder.as_ref().is_none_or(|run| run.contains("://"))
+            && reach.run.is_none()
+            && reach.connect.is_empty();
         if names_no_learner && !reach.network.discover {
             return Ok(None);
         }
@@ -131,7 +136,13 @@ impl LearnerRoute {
         let wanted = statuses.filter(|status| {
             self.run.as_ref().is_none_or(|run| *run == status.run) && is_of(self.holder.as_ref(), status)
         });
-        wanted.flat_map(|status| [answers(&status), versions(&status), skew(&status, now_unix_s)]).collect()
+        let findings = |status: RunStatus| {
+            let alarms = status.alarms.iter().map(|alarm| Finding::problem(ALARM, alarm.clone(), ALARM_REMEDY));
+            [answers(&status), versions(&status), skew(&status, now_unix_s)]
+                .into_iter()
+                .chain(alarms.collect::<Vec<_>>())
+        };
+        wanted.flat_map(findings).collect()
     }
 }
 

@@ -2,10 +2,12 @@
 //!
 //! # Layout
 //! - [`machine`]: vector instructions, disk, open files, clock and ports of this machine.
+//! - [`store`]: the store of a run's state.
 //! - [`learner`]: answer of a learner. The way to it and the certificates are diagnosed by `src/diagnosis/`.
 
 mod learner;
 mod machine;
+mod store;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -30,8 +32,8 @@ pub struct CheckArgs {
     /// Endpoint where a learner will listen on this machine; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
     listen: Vec<String>,
-    /// Folder that runs will be written to.
-    #[arg(long, value_name = "DIR", default_value = "runs")]
+    /// Folder that runs will be written to, if RUN names none.
+    #[arg(long, value_name = "DIR", default_value = "runs", conflicts_with = "folder")]
     run_dir: PathBuf,
     /// Actors that will run here or join; by default one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
@@ -68,12 +70,14 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
     let hindrance = learner::hindrance(&args.reach);
     // Comes first because it may set the threads of the bus through the environment.
     let learner_route = if hindrance.is_none() { learner::LearnerRoute::of(&args.reach)? } else { None };
+    let run = args.reach.run_folder()?;
     let mut findings = vec![
         machine::cpu(),
-        machine::disk(&args.run_dir),
+        machine::disk(run.as_ref().map_or(&args.run_dir, |run| run.root())),
         machine::open_files(args.actors.unwrap_or(cores() as u64)),
         machine::clock(time_unix_s()),
     ];
+    findings.extend(args.reach.store_url().map(|url| store::diagnose(&url)));
     findings.extend(args.listen.iter().map(|endpoint| machine::listen(endpoint, &args.reach.network)));
     if let Some(folder) = &args.reach.network.tls {
         findings.extend(certificates::diagnose(folder));

@@ -112,7 +112,7 @@ impl Contract {
             anyhow::bail!("the joint `{}` has a comma in its name, which separates joints; rename it", joint.name);
         }
         let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).to_vec();
-        Ok(ForController { action_limit: ACTION_MAX as f32, ports, metadata })
+        Ok(ForController { action_limit: Some(ACTION_MAX as f32), ports, metadata })
     }
 
     /// Returns the whole contract.

@@ -4,10 +4,12 @@
 //! - `contract`: what a robot's controller must know of a policy of the velocity task.
 //! - `deploy`: the same as `deploy.yaml`, which Unitree's controllers read.
 //! - `ground`: generated ground, for MuJoCo.
+//! - `walk`: what a player must know of a policy of Gymnasium's tasks.
 
 mod contract;
 mod deploy;
 mod ground;
+mod walk;
 
 use std::{
     collections::BTreeSet,
@@ -115,6 +117,7 @@ pub fn run(args: &ExportArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         let ports = if args.deploy.is_some() { Ports::UNITREE } else { Ports::ANY_BATCH };
         let controller = contract.as_ref().map(|contract| contract.for_controller(ports)).transpose()?;
         let of_actions = if controller.is_some() { "the contract of its controller" } else { "ranges of the motors" };
+        let controller = controller.or_else(|| environment.as_ref().and_then(walk::for_player));
         let what = format!("{actor}, with normalisation and {of_actions}, as ONNX");
         written.push(write(path, &to_onnx(&policy, controller.as_ref()), what)?);
     }

@@ -40,6 +40,10 @@ pub struct RunsArgs {
 pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     let (mut records, mut damaged) = (Vec::new(), Vec::new());
     for path in &args.paths {
+        if let Some(url) = path.to_str().filter(|path| path.contains("://")) {
+            records.push(Record::of_store(url)?.0);
+            continue;
+        }
         for folder in runs_in(path)? {
             match Record::read(&folder) {
                 Ok(record) => records.push(record),

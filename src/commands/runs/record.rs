@@ -7,8 +7,16 @@ use std::{
 };
 
 use anyhow::Context;
-use treadmill_learner::metrics::jsonl::for_each_metric;
-use treadmill_runtime::{run_folder::RunFolder, run_lock::holder};
+use treadmill_learner::{
+    leadership::{Manifest, Status},
+    metrics::jsonl::for_each_metric,
+};
+use treadmill_runtime::{
+    run_folder::RunFolder,
+    run_lock::{holder, was_killed},
+};
+
+use crate::shared::saved_run;
 
 /// Results of one run.
 #[derive(Debug, Default)]
@@ -27,8 +35,9 @@ pub(crate) struct Record {
     /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it
     /// is that of robots that soon fall.
     pub(crate) velocity_error_mps: Option<f64>,
-    /// Whether a process trains it now.
+    /// Whether a process trains it now, and else whether the last one was killed.
     pub(crate) is_running: bool,
+    pub(crate) was_killed: bool,
     /// Words that group runs.
     pub(crate) tags: Vec<String>,
     /// Free text about the run.
@@ -49,16 +58,11 @@ impl Record {
         let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
         let table: toml::Table =
             text.parse().with_context(|| format!("`{}` is not a configuration", path.display()))?;
-        let is_running = RunFolder::open(&folder.display().to_string()).is_ok_and(|run| holder(&run).is_some());
-        let mut record = Self { name, folder: folder.to_path_buf(), is_running, ..Self::default() };
-        for (section, keys) in &table {
-            for (key, value) in keys.as_table().into_iter().flatten() {
-                record.config.insert(format!("{section}.{key}"), value.to_string());
-            }
-        }
-        let label = |key: &str| table.get("run").and_then(|keys| keys.get(key)).cloned();
-        record.tags = label("tags").and_then(|tags| tags.try_into().ok()).unwrap_or_default();
-        record.description = label("description").and_then(|text| text.try_into().ok()).unwrap_or_default();
+        let run = RunFolder::open(&folder.display().to_string()).ok();
+        let is_running = run.as_ref().is_some_and(|run| holder(run).is_some());
+        let was_killed = run.as_ref().is_some_and(was_killed);
+        let mut record = Self { name, folder: folder.to_path_buf(), is_running, was_killed, ..Self::default() };
+        record.set_config(&table);
         let path = folder.join("metrics.jsonl");
         // A run that is just starting has no metrics.
         if let Ok(file) = File::open(&path) {
@@ -69,6 +73,36 @@ impl Record {
             .with_context(|| format!("cannot read `{}`", path.display()))?;
         }
         Ok(record)
+    }
+
+    /// Reads the newest state in a store, and the manifest that names it.
+    pub(crate) fn of_store(url: &str) -> anyhow::Result<(Self, Manifest)> {
+        let (state, manifest) = saved_run::of_store(url)?;
+        let means = state.episodes.means();
+        let mut record = Self {
+            name: state.run.clone(),
+            folder: PathBuf::from(url),
+            env_steps: state.counters.env_steps,
+            wall_s: state.counters.wall_s,
+            training_distance_m: means.map(|means| means.distance_mean_m),
+            training_return: means.map(|means| means.return_mean),
+            fall_fraction: means.map(|means| means.fall_fraction),
+            is_running: manifest.status == Status::Training,
+            ..Self::default()
+        };
+        record.set_config(&state.config_toml.parse().context("the configuration in the store cannot be read")?);
+        Ok((record, manifest))
+    }
+
+    fn set_config(&mut self, table: &toml::Table) {
+        for (section, keys) in table {
+            for (key, value) in keys.as_table().into_iter().flatten() {
+                self.config.insert(format!("{section}.{key}"), value.to_string());
+            }
+        }
+        let label = |key: &str| table.get("run").and_then(|keys| keys.get(key)).cloned();
+        self.tags = label("tags").and_then(|tags| tags.try_into().ok()).unwrap_or_default();
+        self.description = label("description").and_then(|text| text.try_into().ok()).unwrap_or_default();
     }
 
     /// Adds the next metric of the log.
@@ -99,12 +133,13 @@ impl Record {
         text("task.name").or(text("env.own_task")).or(text("env.task")).unwrap_or(ABSENT).to_string()
     }
 
-    /// Returns whether the run is running, has all its steps, or was stopped before.
+    /// Returns whether the run is running, has all its steps, or was stopped or killed before.
     pub(crate) fn state(&self) -> &'static str {
         let wanted = self.config.get("run.steps").and_then(|steps| steps.parse::<u64>().ok());
         match (self.is_running, wanted) {
             (true, _) => "running",
             (false, Some(wanted)) if self.env_steps >= wanted => "finished",
+            (false, _) if self.was_killed => "killed",
             _ => "stopped",
         }
     }

@@ -1,18 +1,46 @@
-//! Runs of this machine, by their folders.
+//! Runs that no process here trains, by their folders and stores.
+
+use std::fs;
 
 use serde_json::json;
-use treadmill_runtime::numbers::thousands;
+use treadmill_learner::leadership::{Manifest, Status};
+use treadmill_runtime::{numbers::thousands, words::quoted};
 
-use crate::{commands::runs::record::Record, launch::resume_line, shared::learner_address::ReachArgs};
+use crate::{
+    commands::runs::record::Record,
+    launch::resume_line,
+    shared::{learner_address::ReachArgs, saved_run},
+};
 
-/// Returns the results of the run whose folder `reach` names, and how to go on, if no process trains it: as text or as
-/// JSON.
-pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<String>> {
-    let folder = reach.idle_folder()?;
-    Some(Record::read(folder.root()).map(|record| describe(&record, &resume_line::of_folder(&folder), json)))
+/// Text about a run that no process trains by this folder.
+pub struct Idle {
+    /// Text or JSON.
+    pub text: String,
+    /// Whether its process was killed.
+    pub was_killed: bool,
 }
 
-fn describe(record: &Record, resumed_by: &str, json: bool) -> String {
+/// Returns the results of the run whose folder or store `reach` names, and how to go on, if no process here trains it:
+/// as text or as JSON.
+pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<Idle>> {
+    if let Some(url) = reach.folder.as_ref().filter(|run| run.contains("://")) {
+        return Some(Record::of_store(url).map(|(record, manifest)| {
+            let resumed_by = format!("treadmill train --store {} --resume-or-start", quoted(url));
+            Idle { text: describe(&record, &resumed_by, Some(&manifest), json), was_killed: false }
+        }));
+    }
+    let folder = reach.idle_folder()?;
+    // Another machine may lead a run whose state is in a store.
+    let url = fs::read_to_string(folder.store()).ok();
+    let manifest = url.and_then(|url| Some(saved_run::of_store(url.trim()).ok()?.1));
+    Some(Record::read(folder.root()).map(|record| {
+        let was_killed = record.state() == "killed" && manifest.is_none();
+        Idle { text: describe(&record, &resume_line::of_folder(&folder), manifest.as_ref(), json), was_killed }
+    }))
+}
+
+fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json: bool) -> String {
+    let leader = manifest.filter(|manifest| manifest.status == Status::Training);
     let distance_m = record.best_eval_distance_m.or(record.training_distance_m);
     if json {
         return json!({
@@ -21,15 +49,24 @@ fn describe(record: &Record, resumed_by: &str, json: bool) -> String {
             "env_steps": record.env_steps,
             "return_mean": record.training_return,
             "best_distance_m": distance_m,
+            "leader": leader.map(|leader| json!({"host": leader.host, "pid": leader.pid, "epoch": leader.epoch})),
         })
         .to_string();
     }
     let or_unknown = |value: Option<f64>, decimals| value.map_or("unknown".to_string(), |v| format!("{v:.decimals$}"));
+    let (state, who) = match leader {
+        Some(Manifest { host, pid, epoch, .. }) => {
+            ("led elsewhere", format!("its store names process {pid} on host {host}, in epoch {epoch}"))
+        }
+        None if record.state() == "killed" => {
+            ("killed", "its process ended without saving what followed the last checkpoint".to_string())
+        }
+        None => (record.state(), "no process trains it".to_string()),
+    };
     format!(
-        "run `{}` is {}: no process trains it\n  steps      {}\n  episodes   return {}, best distance {} m\n  \
+        "run `{}` is {state}: {who}\n  steps      {}\n  episodes   return {}, best distance {} m\n  \
          resume     {resumed_by}",
         record.name,
-        record.state(),
         thousands(record.env_steps),
         or_unknown(record.training_return, 0),
         or_unknown(distance_m, 1),

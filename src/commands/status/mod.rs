@@ -31,7 +31,7 @@ use treadmill_bus::{
 };
 use treadmill_proto::{ControlReply, RunStatus};
 
-use self::waiting::Waiting;
+use self::{local::Idle, waiting::Waiting};
 use crate::{
     launch::{
         output::{say, say_to_reader},
@@ -64,8 +64,7 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
         return if json || !terminal_screen::is_there() { follow_lines(&reach, json) } else { show_dashboard(&reach) };
     }
     if let Some(idle) = local::idle(&reach, json) {
-        say(&idle?);
-        return Ok(());
+        return show_idle(idle?);
     }
     let live = reach.live_folders();
     if live.is_empty() {
@@ -75,6 +74,17 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     let shown: Vec<_> =
         live.into_iter().map(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, json)).collect();
     shown.into_iter().collect()
+}
+
+/// Prints a run that no process trains; fails if its process was killed.
+fn show_idle(idle: Idle) -> anyhow::Result<()> {
+    say(&idle.text);
+    if idle.was_killed {
+        anyhow::bail!(
+            "the process that trained this run was killed; it goes on from its last checkpoint by the line above"
+        );
+    }
+    Ok(())
 }
 
 /// Asks the learners that `reach` names, and prints their statuses.
@@ -118,8 +128,7 @@ fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
             return Ok(());
         }
         if let Some(idle) = local::idle(&found, json) {
-            say(&idle?);
-            return Ok(());
+            return show_idle(idle?);
         }
         waiting.after(followed)?;
     }

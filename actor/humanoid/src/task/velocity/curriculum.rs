@@ -14,8 +14,11 @@ const KINDS_MAX: usize = GroundKind::NAMES.len();
 /// Share of the commanded way from which the level rises, and below which it falls.
 const RISE_SHARE: f64 = 0.5;
 const FALL_SHARE: f64 = 0.35;
-/// Commanded way from which an episode counts (m).
+/// Commanded way from which an episode counts (m), and its greatest share of the way that an episode commands in the mean.
 const COUNTED_M: f64 = 2.0;
+const COUNTED_SHARE: f64 = 0.5;
+/// Mean way below which commands are turns, which the tracking of episodes judges (m).
+const TURNS_M: f64 = 0.1;
 /// First factor on the ranges of commands, and what success adds to it.
 const FACTOR_MIN: f64 = 0.4;
 const FACTOR_STEP: f64 = 0.1;
@@ -61,6 +64,8 @@ pub(super) struct Curriculum {
     /// How to choose a level of the ground, and their number; `None` without levels.
     ground: Option<(LevelChoice, u32)>,
     commands_grow: bool,
+    /// Way that an episode commands in the mean (m), with a factor of 1; `None` where commands are turns.
+    way_m: Option<f64>,
     /// Level on each kind of tile; a kind that is harder than others does not hold them back.
     levels: [u32; KINDS_MAX],
     /// Kind of this episode's tile.
@@ -82,7 +87,8 @@ impl Curriculum {
         let level = if choice == LevelChoice::Drawn { 0 } else { config.ground.start_level };
         let factor = if commands_grow { FACTOR_MIN } else { 1.0 };
         let levels = [level; KINDS_MAX];
-        let chosen = Self { ground, commands_grow, levels, kind: 0, factor, score: Score::default() };
+        let chosen =
+            Self { ground, commands_grow, way_m: mean_way_m(config), levels, kind: 0, factor, score: Score::default() };
         (ground.is_some() || commands_grow).then_some(chosen)
     }
 
@@ -132,8 +138,14 @@ impl Curriculum {
             self.factor = (self.factor + FACTOR_STEP).min(1.0);
         }
         let Some((choice, levels)) = self.ground else { return };
-        let counts = last.commanded_m > COUNTED_M && last.end != EpisodeEnd::None;
-        let share = last.covered_m / last.commanded_m;
+        let (counts, share) = match self.way_m {
+            Some(way_m) => {
+                let counted_m = COUNTED_M.min(COUNTED_SHARE * way_m * self.factor);
+                (last.commanded_m > counted_m, last.covered_m / last.commanded_m)
+            }
+            None => (last.steps > 0, last.tracked / f64::from(last.steps)),
+        };
+        let counts = counts && last.end != EpisodeEnd::None;
         let has_failed = last.end == EpisodeEnd::Fall || counts && share < FALL_SHARE;
         let level = &mut self.levels[self.kind];
         match choice {
@@ -202,6 +214,19 @@ impl Curriculum {
     }
 }
 
+/// Returns the way that an episode commands in the mean (m); `None` where its commands are turns.
+fn mean_way_m(config: &EnvironmentConfig) -> Option<f64> {
+    const PARTS: u32 = 16;
+    let velocity = &config.velocity;
+    let middles = |[low, high]: [f64; 2]| {
+        (0..PARTS).map(move |part| low + (high - low) * (f64::from(part) + 0.5) / f64::from(PARTS))
+    };
+    let speeds = middles(velocity.lin_vel_x_mps).flat_map(|x| middles(velocity.lin_vel_y_mps).map(move |y| x.hypot(y)));
+    let mean_mps = speeds.sum::<f64>() / f64::from(PARTS * PARTS) * (1.0 - velocity.standing_share);
+    let way_m = mean_mps * f64::from(config.env.max_episode_steps) * config.env.control_step_s;
+    (way_m >= TURNS_M).then_some(way_m)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,12 +264,33 @@ mod tests {
         }
         // A short way says nothing, and neither does an episode without an end.
         let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
-        rising.count(&command, [1.0, 0.0], 1.0, 1.9, [false, true]);
+        rising.count(&command, [1.0, 0.0], 1.0, 1.0, [false, true]);
         rising.begin_episode(2, 0);
         assert_eq!(rising.level(), 0);
         rising.count(&command, [1.0, 0.0], 1.0, 10.0, [false, false]);
         rising.begin_episode(3, 0);
         assert_eq!(rising.level(), 0);
+    }
+
+    #[test]
+    fn slow_commands_and_turns_raise_the_level_too() {
+        let slow = |range, speed_mps, covered_mps, tracked| {
+            let velocity =
+                VelocityConfig { lin_vel_x_mps: range, lin_vel_y_mps: [0.0; 2], ..VelocityConfig::default() };
+            let ground = GroundConfig { kinds: vec![GroundKind::Slope], levels: 4, ..GroundConfig::default() };
+            let config = EnvironmentConfig { velocity, ground, has_curricula: true, ..EnvironmentConfig::default() };
+            let mut rising = Curriculum::new(&config).unwrap();
+            let command = Command { lin_vel_x_mps: speed_mps, ang_vel_z_radps: 0.3, ..Command::default() };
+            // An episode of the default length, 15 s.
+            (1..=1000)
+                .for_each(|step| rising.count(&command, [covered_mps, 0.0], tracked, 0.015, [false, step == 1000]));
+            rising.begin_episode(1, 0);
+            rising.level()
+        };
+        assert_eq!(slow([0.0, 0.1], 0.05, 0.04, 0.0), 1, "0.75 m commanded");
+        assert_eq!(slow([0.0, 0.1], 0.05, 0.02, 1.0), 0, "less than half of it covered");
+        assert_eq!(slow([0.0, 0.1], 0.02, 0.02, 1.0), 0, "0.3 m, less than half of the mean, says little");
+        assert_eq!((slow([0.0; 2], 0.0, 0.0, 0.9), slow([0.0; 2], 0.0, 0.0, 0.4)), (1, 0), "turns on the spot");
     }
 
     #[test]

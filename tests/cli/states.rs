@@ -1,0 +1,89 @@
+//! What `status`, `runs` and `check` say of runs that ended, were killed, lie in a store, or cannot be read.
+
+use std::{fs, os::unix::fs::PermissionsExt, path::Path};
+
+use crate::support::*;
+use std::os::unix::process::CommandExt;
+
+#[test]
+fn a_killed_run_is_no_stopped_one() {
+    let (folder, run_folder) = folders();
+    let training = start_endless(folder.path(), &run_folder, "train", &["--no-progress"]);
+    await_steps(&run_folder, 2048);
+    training.signal(libc::SIGKILL);
+    let _ = training.wait();
+    let status = run(folder.path(), &["status", "run"]);
+    assert_refused(&status, 1, &["was killed", "last checkpoint"]);
+    let text = stdout(&status);
+    assert!(text.contains("run `run` is killed") && text.contains("--resume run"), "{text}");
+    let status = run(folder.path(), &["status", "run", "--json"]);
+    assert_eq!((status.status.code(), last_json(&status)["phase"].as_str()), (Some(1), Some("killed")));
+    assert!(stdout(&run(folder.path(), &["runs", "run"])).contains("killed"));
+    // A clean end after it.
+    let training = start(folder.path(), &["train", "--resume", "run", "--no-progress"]);
+    training.wait_for("  resume    ");
+    stop(training);
+    let status = run(folder.path(), &["status", "run", "--json"]);
+    assert_eq!((status.status.code(), last_json(&status)["phase"].as_str()), (Some(0), Some("stopped")));
+}
+
+#[test]
+fn a_run_in_a_store_is_shown_and_checked_by_its_url() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let missing = run(folder.path(), &["status", &url]);
+    assert_refused(&missing, 2, &["holds no run"]);
+    assert!(stdout(&run(folder.path(), &["check", &url])).contains("problem  store"));
+    let train =
+        ["train", "--preset", "smoke", "--actors", "1", "--run-dir", "walk", "--steps", "2048", "--no-progress"];
+    done(folder.path(), &[&train[..], &["--store", &url]].concat());
+    let text = stdout(&run(folder.path(), &["status", &url]));
+    assert!(text.contains("run `walk` is finished") && text.contains("2,048") && text.contains(&url), "{text}");
+    let of_url = run(folder.path(), &["runs", "--json", &url]);
+    assert_eq!(
+        (last_json(&of_url)["run"].as_str(), last_json(&of_url)["env_steps"].as_u64()),
+        (Some("walk"), Some(2048))
+    );
+    let text = stdout(&run(folder.path(), &["check", "walk"]));
+    assert!(text.contains("ok       store") && text.contains("holds run `walk` after 2,048 env steps"), "{text}");
+    assert!(text.lines().any(|line| line.contains("disk") && line.ends_with("/walk")), "{text}");
+}
+
+#[test]
+fn a_damaged_key_is_never_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["certs", "certs"]);
+    let key = folder.path().join("certs/learner.key");
+    let sound = fs::read(&key).unwrap();
+    fs::write(&key, "nonsense").unwrap();
+    let refused = run(folder.path(), &["certs", "certs"]);
+    assert_refused(&refused, 1, &["1 of the certificates", "--renew"]);
+    let text = stdout(&refused);
+    assert!(text.contains("learner.key is not a private key") && !text.contains("nothing to do"), "{text}");
+    fs::write(&key, sound).unwrap();
+    assert!(stdout(&run(folder.path(), &["certs", "certs"])).contains("nothing to do"));
+}
+
+/// Runs the binary as a user without rights.
+fn as_another_user(folder: &Path, args: &[&str]) -> Option<std::process::Output> {
+    let copy = folder.join("treadmill");
+    fs::copy(env!("CARGO_BIN_EXE_treadmill"), &copy).unwrap();
+    fs::set_permissions(&copy, fs::Permissions::from_mode(0o755)).unwrap();
+    std::process::Command::new(copy).args(args).current_dir(folder).uid(65_534).output().ok()
+}
+
+#[test]
+fn what_cannot_be_read_is_neither_missing_nor_damaged() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
+    trained(folder.path(), Path::new("run"));
+    done(folder.path(), &["certs", "certs"]);
+    fs::set_permissions(folder.path().join("run"), fs::Permissions::from_mode(0o700)).unwrap();
+    let Some(status) = as_another_user(folder.path(), &["status", "run"]) else {
+        return skip("only root runs a program as another user");
+    };
+    assert_refused(&status, 2, &["`run` cannot be read", "the right to read it"]);
+    let check = as_another_user(folder.path(), &["check", "--tls", "certs"]).unwrap();
+    let text = stdout(&check);
+    assert!(text.contains("learner.key cannot be read") && !text.contains("does not match"), "{text}");
+}
