@@ -1,6 +1,7 @@
 """Policies and receipts that an actor fetches, with answers made up here."""
 
 import json
+import socket
 import sys
 import threading
 import unittest
@@ -17,6 +18,7 @@ from treadmill_actor import bus, schema  # noqa: E402
 from treadmill_actor.bus import Bus, BusError, check_endpoint, default_endpoint, dialled, fetch_pieces  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import checksum  # noqa: E402
+from treadmill_actor.worker import Worker  # noqa: E402
 
 
 class JoiningTest(unittest.TestCase):
@@ -37,6 +39,25 @@ class JoiningTest(unittest.TestCase):
     def policies(self, answers, receipt=None):
         bus = SimpleNamespace(fetch_policy=lambda *_: answers.pop(0), register=lambda *_: receipt)
         return Policies(bus, self.bundle(), "py", None)
+
+    def test_a_standby_is_recognised_and_left(self):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            endpoint = f"tcp/127.0.0.1:{free.getsockname()[1]}"
+        config = zenoh.Config()
+        for key, value in (("mode", '"router"'), ("listen/endpoints", json.dumps([endpoint])), ("scouting/multicast/enabled", "false")):
+            config.insert_json5(key, value)
+        with zenoh.open(config) as standby:
+            own = Bus([endpoint])
+            self.assertFalse(own.is_behind_standby("run"))
+            key = f"treadmill/*/policy/pieces/{standby.info.zid()}"
+            mark = standby.declare_queryable(key, lambda query: query.reply_err(b"this learner follows"))
+            self.assertTrue(own.is_behind_standby("run"))
+            worker = Worker(own, "run", "py", None, 1, threading.Event(), leaves_standby=True)
+            worker.work()
+            self.assertTrue(worker.is_behind_standby)
+            mark.undeclare()
+            self.assertFalse(own.is_behind_standby("run"))
+            own.close()
 
     def test_new_configuration_sets_run_changed(self):
         policies = self.policies([self.bundle(config_hash=8)])

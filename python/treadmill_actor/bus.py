@@ -32,6 +32,11 @@ ENDPOINT = re.compile(r"(tcp|tls)/([^?#]+):([0-9]{1,5})([?#].*)?")
 log = logging.getLogger("treadmill_actor")
 
 
+#: Error with which a standby answers requests for its policy.
+FOLLOWS = b"this learner follows"
+STANDBY_TIMEOUT_S = 2.0
+
+
 class BusError(Exception):
     """An endpoint, a certificate or the session is unusable."""
 
@@ -264,6 +269,15 @@ class Bus:
             if bundle is not None:
                 return bundle
         return None
+
+    def is_behind_standby(self, run):
+        """Returns whether what this session dialled is a learner that only follows; over TLS it may not pass fragments on."""
+        request = schema.PolicyRequest().SerializeToString()
+        for node in self.session.info.routers_zid():
+            replies = self.session.get(f"treadmill/{run}/policy/pieces/{node}", payload=request, timeout=STANDBY_TIMEOUT_S)
+            if any(reply.err is not None and reply.err.payload.to_bytes() == FOLLOWS for reply in replies):
+                return True
+        return False
 
     def submit(self, run, actor, fragment, timeout_s, settles=lambda receipt: True):
         """Sends a fragment. Returns the first receipt that `settles` accepts, or else the last one. None without any: the fragment

@@ -114,11 +114,22 @@ def main(arguments=None):
             task.observation_size,
             task.action_size,
         )
-        bus = dialled(lambda: Bus(connect, args.tls), connect, stopping)
-        if bus is None:
-            return 0
-        worker = Worker(bus, args.run, name, environments, seed, stopping)
-        worker.work(args.steps)
+        worker = None
+        while True:
+            bus = dialled(lambda: Bus(connect, args.tls), connect, stopping)
+            if bus is None:
+                return 0
+            if worker is None:
+                # Another endpoint may be the leader's.
+                leaves = len(connect) > 1 and any(endpoint.startswith("tls/") for endpoint in connect)
+                worker = Worker(bus, args.run, name, environments, seed, stopping, leaves)
+            worker.bus = bus
+            worker.work(args.steps)
+            if not worker.is_behind_standby or stopping.is_set():
+                break
+            bus.close()
+            connect = connect[1:] + connect[:1]
+            log.warning("the endpoint is a standby's, which may not pass fragments on; trying the next one: %s", ", ".join(connect))
         counts = worker.uploader.delivery.outcomes if worker.uploader else {}
         log.info("%s ended after %d env steps; receipts: %s", name, worker.env_steps, counts)
         return 0

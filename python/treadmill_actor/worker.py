@@ -17,6 +17,8 @@ from .settings import Settings
 
 #: How long to wait for each thread at the end. Closing the session ends the others.
 STOP_TIMEOUT_S = 2.0
+#: Interval of asking whether the bus is a standby's.
+PLACE_EVERY_S = 10.0
 log = logging.getLogger("treadmill_actor")
 
 
@@ -28,8 +30,10 @@ def unique():
 class Worker:
     """Collects fragments for one run until a request to stop."""
 
-    def __init__(self, bus, run, actor, environments, seed, stopping):
+    def __init__(self, bus, run, actor, environments, seed, stopping, leaves_standby=False):
         self.bus, self.run, self.actor = bus, run, actor
+        #: Whether to end where the bus was dialled at a standby, and whether it was.
+        self.leaves_standby, self.is_behind_standby = leaves_standby, False
         self.environments, self.seed, self.stopping = environments, seed, stopping
         self.env_steps = self.episodes = self.faults = 0
         #: Steps of the next fragment as the last receipt says; 0 if it leaves them open.
@@ -38,8 +42,12 @@ class Worker:
 
     def work(self, steps=None):
         """Joins and simulates for `steps` environment steps; joins again if the run changes."""
-        has_simulated = False
+        has_simulated, self.is_behind_standby = False, False
         while not self.stopping.is_set():
+            if self.leaves_standby and self.bus.is_behind_standby(self.run):
+                self.is_behind_standby = True
+            if self.is_behind_standby:
+                return
             bundle = join(self.bus, self.run, self.actor, self.environments.task, self.stopping)
             if bundle is None:
                 return
@@ -50,6 +58,8 @@ class Worker:
             log.info("%s joined run `%s` at version %d", self.actor, self.run, bundle.version.number)
             if self._simulate_run(bundle, steps):
                 return
+            if self.is_behind_standby:
+                continue
             log.warning("run `%s` changed; joining again", self.run)
 
     def _simulate_run(self, bundle, steps):
@@ -95,6 +105,9 @@ class Worker:
                 for _ in range(settings.fragments_in_flight)
             ),
         ]
+        uploads = threads[2:]
+        if self.leaves_standby:
+            threads.append(threading.Thread(target=self._watch_place, args=(policies, ended)))
         for thread in threads:
             thread.daemon = True
             thread.start()
@@ -105,10 +118,10 @@ class Worker:
             for _ in range(settings.fragments_in_flight):
                 outbox.put(None)
             # After all steps, wait for the last receipts; after a stop, a failure or a changed run, do not.
-            while done and not self.stopping.is_set() and any(thread.is_alive() for thread in threads[2:]):
+            while done and not self.stopping.is_set() and any(thread.is_alive() for thread in uploads):
                 self.stopping.wait(0.1)
             leaving.set()
-            for thread in threads[2:]:
+            for thread in uploads:
                 thread.join(STOP_TIMEOUT_S)
             ended.set()
             announced.set()
@@ -160,6 +173,14 @@ class Worker:
                 credit.release()
         except Exception as why:  # noqa: BLE001: the simulating thread raises it
             self.failure = why
+
+    def _watch_place(self, policies, ended):
+        """Ends the simulation once the bus is a standby's: a learner that leads may be overtaken."""
+        while not ended.wait(PLACE_EVERY_S):
+            if self.bus.is_behind_standby(self.run):
+                self.is_behind_standby = True
+                policies.run_changed.set()
+                return
 
     def _report(self, publisher, policies, incarnation, every_s, ended):
         steps_before, since = self.env_steps, time.monotonic()

@@ -10,9 +10,12 @@ use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
-use crate::launch::{
-    output::{say, say_error},
-    prepared::{Prepared, RunSetup},
+use crate::{
+    diagnosis::certificates,
+    launch::{
+        output::{say, say_error},
+        prepared::{Prepared, RunSetup},
+    },
 };
 
 /// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.
@@ -65,6 +68,12 @@ pub fn print_start(
     {
         say("  DIR       the folder of that machine's own keys, made by `treadmill certs`");
     }
+    if let Some(of_learner) = credentials.filter(|of_learner| only_names_itself(of_learner, endpoints)) {
+        let folder = quoted(&of_learner.folder.display().to_string());
+        say(&format!(
+            "  hosts     other machines need this one's name: treadmill certs {folder} --host NAME, and a new start"
+        ));
+    }
     if let Some(address) = page {
         say(&format!("  metrics   http://{address}/metrics"));
     }
@@ -102,15 +111,35 @@ fn goal(config: &Config, steps: u64) -> String {
 }
 
 /// Returns the value of `--connect` for other processes, with further flags that they need. An address that means "all
-/// interfaces" becomes the host's name.
+/// interfaces" becomes the host's name, or a name in the certificate, without which no other side accepts it.
 fn connect_flags(endpoint: &str, credentials: Option<&Credentials>) -> String {
-    let host = treadmill_runtime::machine::host_name();
+    let mut host = treadmill_runtime::machine::host_name();
+    let known = credentials.map(hosts).unwrap_or_default();
+    if !known.is_empty() && !known.contains(&host) {
+        host.clone_from(known.iter().find(|name| is_far(name)).unwrap_or(&known[0]));
+    }
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
         Some(credentials) => dialled + &tls_flag(credentials, Role::Actor),
         None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
         None => dialled,
     }
+}
+
+/// Returns the hosts that the certificate of this process names.
+fn hosts(credentials: &Credentials) -> Vec<String> {
+    certificates::hosts_in(&credentials.files()[0]).unwrap_or_default()
+}
+
+/// Returns whether a host of a certificate is not just another word for the machine itself.
+fn is_far(host: &str) -> bool {
+    !["localhost", "127.0.0.1", "::1"].contains(&host)
+}
+
+/// Returns whether a process listens for other machines, with a certificate that none of them accepts.
+fn only_names_itself(credentials: &Credentials, endpoints: &[String]) -> bool {
+    let is_open = |endpoint: &String| endpoint.contains("/0.0.0.0:") || endpoint.contains("/[::]:");
+    endpoints.iter().any(is_open) && !hosts(credentials).iter().any(|host| is_far(host))
 }
 
 /// Returns the flag that names the certificates of a role, after a space. A folder that was copied may have only the

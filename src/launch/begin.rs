@@ -118,7 +118,7 @@ fn branch_off(
     let device = open_device(&config, any.device)?;
     let (prefix, origin) = (format!("{}-fork", fork.state.run), Some(fork.origin.clone()));
     settings::choose(&mut config.ppo, fork.state.ppo.networks());
-    let mut state = fork.with_config(&config)?;
+    let mut state = fork.with_config(&config, new)?;
     if !config.is_external() {
         if let Some(file) = &any.model {
             model::check_same(&config, &state.model_xml, file)?;

@@ -8,7 +8,11 @@ use tokio::task::block_in_place;
 use treadmill_bus::learner::StandbyMark;
 use treadmill_learner::{
     checkpoint,
-    leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},
+    leadership::{
+        Leadership, LeadershipError, Manifest,
+        follower::{LoadedState, newest_state},
+        read_manifest,
+    },
     training::TrainingError,
 };
 use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock};
@@ -102,6 +106,11 @@ impl LearnerRun<'_> {
                 let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &manifest.run, &store.to_string())?;
                 drop(RunLock::take(&folder)?);
                 folder.discard();
+                // A store that fails now is waited for later.
+                if let Ok(Some(found)) = block_in_place(|| newest_state(store)) {
+                    let state = checkpoint::read(&found.manifest.state, &found.state)?;
+                    resumption::check_flags(self.launcher, &state, self.new, self.any, self.changes)?;
+                }
                 Ok(None)
             }
             Some((manifest, _)) => Err(Usage(format!(

@@ -75,7 +75,7 @@ pub fn go_on(
     }
     let has_new_labels = config.run != saved_run;
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
-    check_agreement(&config, new, launcher.tasks, &kept)?;
+    check_agreement(&config, new, any, launcher.tasks, &kept)?;
     let device = prepared::open_device(&config, any.device)?;
     if !config.is_external() {
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
@@ -132,10 +132,28 @@ fn check_folder(folder: &RunFolder, new: &NewRunArgs) -> Result<(), Usage> {
     }
 }
 
+/// Checks flags against a state of a store before this process waits for its turn to lead.
+///
+/// # Errors
+/// As [`go_on`].
+pub fn check_flags(
+    launcher: Launcher<'_>,
+    state: &TrainingState,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<()> {
+    let config = state.config().map_err(anyhow::Error::msg)?;
+    prepared::check_external(launcher.command, &config, any)?;
+    let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
+    check_agreement(&config, new, any, launcher.tasks, &kept)
+}
+
 /// Refuses flags of new runs that would change the saved configuration. The goal is not among them: only `--steps` sets it.
 fn check_agreement(
     saved: &Config,
     new: &NewRunArgs,
+    any: &AnyRunArgs,
     tasks: &TaskRegistry,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<()> {
@@ -145,6 +163,18 @@ fn check_agreement(
         source.preset(preset)?;
     }
     new.add_to(&mut source, tasks, changes)?;
+    let given = source.build()?;
+    // A service has the same command line at each start, also after the goal was raised.
+    let has_other_goal =
+        given.run.steps != saved.run.steps && !(any.resume_or_start && given.run.steps < saved.run.steps);
+    let has_other_actors = given.rollout.actors != saved.rollout.actors;
+    for (key, differs, flag) in
+        [("run.steps", has_other_goal, "--steps"), ("rollout.actors", has_other_actors, "--actors")]
+    {
+        if differs && new.gives(key) {
+            return Err(Usage(format!("`{key}`: a resumed run takes it from {flag} alone; use {flag} N")).into());
+        }
+    }
     source.value("run.steps", i64::try_from(saved.run.steps)?)?;
     // The number of processes may change at each start, also where a preset has another one.
     source.value("rollout.actors", i64::from(saved.rollout.actors))?;
@@ -192,13 +222,16 @@ mod tests {
             set: given.iter().map(ToString::to_string).collect(),
             ..NewRunArgs::default()
         };
-        check_agreement(&saved, &new, &TaskRegistry::default(), &[]).err().map(|why| why.to_string())
+        let any = AnyRunArgs::default();
+        check_agreement(&saved, &new, &any, &TaskRegistry::default(), &[]).err().map(|why| why.to_string())
     }
 
     #[test]
     fn flags_that_agree_with_the_saved_run_are_accepted() {
         assert_eq!(objection(&[], &[]), None);
         assert_eq!(objection(&["ppo.batch=1024", "run.steps=99999"], &["ppo.batch=1024"]), None);
+        assert!(objection(&["run.steps=99999"], &["run.steps=88888"]).unwrap().contains("use --steps N"));
+        assert!(objection(&["rollout.actors=3"], &["rollout.actors=2"]).unwrap().contains("use --actors N"));
         assert_eq!(objection(&["run.deterministic=true"], &["run.deterministic=true"]), None);
         let why = objection(&["ppo.batch=1024"], &[]).unwrap();
         assert!(why.contains("`ppo.batch` is 512 by your flags and 1024 in the saved run"), "{why}");

@@ -1,6 +1,6 @@
 //! Flags of `train` and `learner`, and the configuration keys that they set.
 
-use std::path::PathBuf;
+use std::{fs, path::PathBuf};
 
 use clap::Args;
 use treadmill_config::{ConfigSource, EnvTask};
@@ -75,6 +75,31 @@ impl NewRunArgs {
             source.value(key, value)?;
         }
         self.seed.map_or(Ok(()), |seed| add_count(source, "run.seed", seed))
+    }
+
+    /// Returns whether `--set` or the configuration file has a key, whatever its value.
+    pub fn gives(&self, key: &str) -> bool {
+        let is_set = self.set.iter().any(|pair| pair.split('=').next().is_some_and(|name| name.trim() == key));
+        let in_file = || {
+            let table: toml::Table = fs::read_to_string(self.config.as_ref()?).ok()?.parse().ok()?;
+            let (section, name) = key.split_once('.')?;
+            table.get(section)?.get(name).map(|_| ())
+        };
+        is_set || in_file().is_some()
+    }
+
+    /// Refuses a key of new networks, which networks of `flag` have learnt already.
+    ///
+    /// # Errors
+    /// If the key was given.
+    pub fn check_noise(&self, flag: &str) -> Result<(), Usage> {
+        const KEY: &str = "policy.init_log_std";
+        match self.gives(KEY) {
+            true => {
+                Err(Usage(format!("`{KEY}` has no effect with {flag}, whose policy has its own noise; leave it out")))
+            }
+            false => Ok(()),
+        }
     }
 
     /// Returns the keys that only describe the run, if they were given.

@@ -29,11 +29,16 @@ use crate::{
     },
 };
 
+/// Key of the learning rate to begin with.
+const RATE: &str = "ppo.learning_rate";
+
 /// Policy that a new run begins with.
 #[derive(Clone)]
 pub struct InitFrom {
     from: String,
     saved: SavedPolicy,
+    /// Whether the learning rate to begin with was given; otherwise it is the smallest.
+    rate_is_given: bool,
 }
 
 impl InitFrom {
@@ -44,8 +49,9 @@ impl InitFrom {
     /// If there is no such policy.
     pub fn read(new: &NewRunArgs, any: &AnyRunArgs) -> anyhow::Result<Option<Self>> {
         let Some(from) = new.init_from.clone() else { return Ok(None) };
+        new.check_noise("--init-from")?;
         let saved = saved_policy::load(&from, any.checkpoint)?;
-        Ok(Some(Self { from, saved }))
+        Ok(Some(Self { from, saved, rate_is_given: new.gives(RATE) }))
     }
 
     /// Returns a model text, which was read from `file` if given, with hinges and motors in the order of the policy's model.
@@ -53,7 +59,7 @@ impl InitFrom {
     /// # Errors
     /// If they have other names: a policy means nothing to another body.
     pub fn in_its_order(&self, text: &str, file: Option<&Path>) -> Result<String, Usage> {
-        let Self { from, saved } = self;
+        let Self { from, saved, .. } = self;
         mjcf::in_order_of(text, &saved.policy.model_xml).map_err(|why| {
             let Usage(why) = model::in_file(file, &why);
             Usage(format!("`--init-from {from}`: {why}"))
@@ -62,7 +68,7 @@ impl InitFrom {
 
     /// Returns why a run with networks of this shape cannot begin with it, if so.
     pub fn objection(&self, ours: &NetworkShape) -> Option<String> {
-        let Self { from, saved: SavedPolicy { policy: ExportedPolicy { shape: theirs, .. }, .. } } = self;
+        let Self { from, saved: SavedPolicy { policy: ExportedPolicy { shape: theirs, .. }, .. }, .. } = self;
         (theirs != ours).then(|| {
             format!(
                 "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of \
@@ -80,7 +86,7 @@ impl InitFrom {
         if let Some(why) = self.objection(state.shape()) {
             return Err(Usage(why).into());
         }
-        let Self { from, saved: SavedPolicy { policy, origin, .. } } = self;
+        let Self { from, saved: SavedPolicy { policy, origin, .. }, rate_is_given } = self;
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
@@ -96,6 +102,9 @@ impl InitFrom {
                 distance * 100.0
             ))
         })?;
+        if *rate_is_given {
+            state.ppo.adopt_key(RATE, &config.ppo);
+        }
         Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }
@@ -133,7 +142,8 @@ impl Fork {
     ///
     /// # Errors
     /// If the configuration does not fit the state, or has no more steps than it.
-    pub fn with_config(mut self, config: &Config) -> anyhow::Result<TrainingState> {
+    pub fn with_config(mut self, config: &Config, new: &NewRunArgs) -> anyhow::Result<TrainingState> {
+        new.check_noise("--fork")?;
         let state = &mut self.state;
         let reached = state.counters.env_steps;
         if config.run.steps <= reached {
@@ -146,7 +156,14 @@ impl Fork {
             .into());
         }
         let before = state.config().map_err(anyhow::Error::msg)?;
-        state.ppo.fork(&before.ppo, &config.ppo);
+        if before.env.robot != config.env.robot {
+            let why = "`env.robot`: a fork keeps the robot of its run; begin a new run with --model and --init-from";
+            return Err(Usage(why.to_string()).into());
+        }
+        // It replaces the adapted one.
+        if new.gives(RATE) {
+            state.ppo.adopt_key(RATE, &config.ppo);
+        }
         if before.run.seed != config.run.seed {
             state.ppo.set_shuffle(seeds::stream(config.run.seed, "shuffle", &[]));
         }

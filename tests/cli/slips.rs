@@ -59,3 +59,36 @@ fn control_finds_the_only_live_run_and_refuses_to_choose() {
     assert_usage(folder, &["control", "resume"], &["several runs", "runs/one, runs/two"]);
     assert!(stdout(&run(folder, &["control", "resume", "one"])).starts_with("resumed"));
 }
+
+#[test]
+fn keys_without_effect_are_refused_with_each_way_to_begin() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    trained(folder, &run);
+    let begin = |more: &[&str]| self::run(folder, &[&["train", "--no-progress", "--actors", "1"], more].concat());
+    let refused = |more: &[&str], parts: &[&str]| assert_refused(&begin(more), 2, parts);
+    let noise = ["--set", "policy.init_log_std=-2", "--run-dir", "never"];
+    refused(
+        &[&["--preset", "smoke", "--init-from", "run"][..], &noise].concat(),
+        &["`policy.init_log_std`", "--init-from"],
+    );
+    refused(&[&["--fork", "run", "--steps", "4096"][..], &noise].concat(), &["`policy.init_log_std`", "--fork"]);
+    let robot = ["--fork", "run", "--steps", "4096", "--set", "env.robot=g1", "--run-dir", "never"];
+    refused(&robot, &["`env.robot`", "keeps the robot"]);
+    refused(&["--resume", "run", "--set", "run.steps=4096"], &["`run.steps`", "use --steps N"]);
+    refused(
+        &["--resume", "run", "--set", "rollout.actors=7", "--steps", "4096"],
+        &["`rollout.actors`", "use --actors N"],
+    );
+    assert!(!folder.join("never").exists());
+    // The rate is applied, and without it the smallest one.
+    let rate = |name: &str, more: &[&str]| {
+        let fixed = ["--preset", "smoke", "--init-from", "run", "--steps", "512", "--run-dir", name];
+        let output = begin(&[&fixed[..], more].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        let rates = metrics(&folder.join(name)).into_iter().filter(|(tag, ..)| tag == "train/learning_rate");
+        rates.map(|(.., value)| value).next().unwrap()
+    };
+    assert!(rate("slow", &[]) < 1e-4);
+    assert!(rate("given", &["--set", "ppo.learning_rate=9e-4"]) > 4e-4);
+}

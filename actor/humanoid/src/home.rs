@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::config::EnvironmentConfig;
 use crate::environment::Environment;
 use crate::error::ModelError;
-use crate::model::{Geometry, Model, Robot};
+use crate::model::{Model, Robot};
 use crate::physics::Physics;
 use crate::task::TaskRegistry;
 
@@ -226,7 +226,7 @@ fn nearest_axis(vector: &Vector3<f64>) -> &'static str {
     NAMES[axis][usize::from(vector[axis] > 0.0)]
 }
 
-/// Returns the side that a name tells: 0 for left, 1 for right.
+/// Returns the side in a name: 0 for left, 1 for right.
 fn side_of(name: &str) -> Option<usize> {
     let name = name.to_lowercase();
     let is = |word: &str, letter: &str| {
@@ -264,29 +264,9 @@ fn clearance_m(model: &Model, physics: &Physics, link: usize) -> Option<f64> {
     let heights = shapes.map(|shape| {
         let geometry = &model.bodies[of.body].shapes[shape].geometry;
         let centre = pose * geometry.centre_m();
-        lowest_m(geometry, &pose) - physics.ground_height_m(centre.x, centre.y)
+        geometry.lowest_m(&pose) - physics.ground_height_m(centre.x, centre.y)
     });
     heights.min_by(f64::total_cmp)
-}
-
-/// Returns the height of the lowest point of a shape of a body at `body` (m, world).
-fn lowest_m(geometry: &Geometry, body: &Isometry3<f64>) -> f64 {
-    // Row of a rotation that gives the height: the world's z axis in the frame of the shape.
-    let down = |pose: &Isometry3<f64>| (body * pose).rotation.inverse() * Vector3::z();
-    let centre_m = (body * geometry.centre_m()).z;
-    match geometry {
-        Geometry::Sphere { radius_m, .. } => centre_m - radius_m,
-        Geometry::Capsule { from_m, to_m, radius_m } => (body * from_m).z.min((body * to_m).z) - radius_m,
-        Geometry::Cylinder { pose, radius_m, half_length_m } => {
-            let down = down(pose);
-            centre_m - half_length_m * down.z.abs() - radius_m * down.x.hypot(down.y)
-        }
-        Geometry::Box { pose, half_m } => centre_m - down(pose).abs().dot(half_m),
-        Geometry::Ellipsoid { pose, half_m } => centre_m - down(pose).component_mul(half_m).norm(),
-        Geometry::Hull { vertices_m } => {
-            vertices_m.iter().map(|vertex| (body * vertex).z).fold(f64::INFINITY, f64::min)
-        }
-    }
 }
 
 #[cfg(test)]
@@ -370,33 +350,5 @@ mod tests {
         config.env.healthy_z_range = [1.0, 2.0];
         let found = HomePose::of(&config, crate::HUMANOID_XML, &TaskRegistry::default()).unwrap();
         assert_eq!((found.faults, found.up), (Vec::new(), "+z"));
-    }
-
-    #[test]
-    fn the_lowest_point_of_each_shape_is_found() {
-        let tilted = Isometry3::new(Vector3::new(0.0, 0.0, 1.0), Vector3::new(0.3, -0.4, 0.2));
-        let own = Isometry3::new(Vector3::new(0.1, 0.2, 0.3), Vector3::new(0.5, 0.1, -0.2));
-        let half_m = Vector3::new(0.1, 0.2, 0.3);
-        // Points on the surface, in the frame of the shape.
-        let around = |count: usize| (0..count).map(move |n| 2.0 * std::f64::consts::PI * n as f64 / count as f64);
-        let ball: Vec<Vector3<f64>> = around(400)
-            .flat_map(|a| around(400).map(move |b| Vector3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin())))
-            .collect();
-        let disc: Vec<Vector3<f64>> = around(2000)
-            .flat_map(|a| [-1.0, 1.0].map(|z| Vector3::new(0.1 * a.cos(), 0.1 * a.sin(), 0.3 * z)))
-            .collect();
-        let corners: Vec<Vector3<f64>> = (0..8)
-            .map(|n| half_m.component_mul(&Vector3::from_fn(|axis, _| if n >> axis & 1 == 0 { -1.0 } else { 1.0 })))
-            .collect();
-        let ellipsoid = ball.iter().map(|point| point.component_mul(&half_m)).collect();
-        for (geometry, points) in [
-            (Geometry::Cylinder { pose: own, radius_m: 0.1, half_length_m: 0.3 }, disc),
-            (Geometry::Box { pose: own, half_m }, corners),
-            (Geometry::Ellipsoid { pose: own, half_m }, ellipsoid),
-        ] {
-            let heights = points.iter().map(|point: &Vector3<f64>| (tilted * own * nalgebra::Point3::from(*point)).z);
-            let wanted_m = heights.fold(f64::INFINITY, f64::min);
-            assert!((lowest_m(&geometry, &tilted) - wanted_m).abs() < 1e-5, "{geometry:?}");
-        }
     }
 }

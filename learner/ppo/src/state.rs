@@ -135,15 +135,8 @@ impl PpoState {
         self.shuffle = shuffle;
     }
 
-    /// Adopts the settings of a fork: another initial learning rate replaces the adapted one.
-    pub fn fork(&mut self, before: &PpoConfig, config: &PpoConfig) {
-        if before.learning_rate != config.learning_rate {
-            self.learning_rate = config.learning_rate;
-        }
-    }
-
-    /// Adopts the setting that was changed by its key during the run: `ppo.learning_rate` replaces the adapted learning
-    /// rate.
+    /// Adopts the setting that was given by its key, during the run or for a run that begins with its networks:
+    /// `ppo.learning_rate` replaces the adapted learning rate.
     pub fn adopt_key(&mut self, key: &str, config: &PpoConfig) {
         if key == "ppo.learning_rate" {
             self.learning_rate = config.learning_rate;

@@ -156,8 +156,9 @@ impl FragmentValidator {
     /// Reports a malformed fragment, which may put its sender in quarantine.
     fn report_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) {
         self.counts.malformed += 1;
-        self.rejections.record(actor, &why.to_string(), now);
-        self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
+        if self.rejections.record(actor, &why.to_string(), now) {
+            self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
+        }
         if self.admission.record_malformed(sender, now) {
             self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
@@ -166,9 +167,10 @@ impl FragmentValidator {
     /// Reports an accepted fragment that the learner did not learn from, which may put its sender in quarantine.
     pub fn report_implausible(&mut self, fragment: &Fragment, why: &Implausible, now: Instant) {
         self.counts.implausible += 1;
-        self.rejections.record(&fragment.actor, &why.to_string(), now);
         let (actor, sequence) = (&fragment.actor, fragment.sequence);
-        self.implausible_log.emit(|| tracing::warn!(%actor, sequence, error = %why, "fragment not learnt from"));
+        if self.rejections.record(actor, &why.to_string(), now) {
+            self.implausible_log.emit(|| tracing::warn!(%actor, sequence, error = %why, "fragment not learnt from"));
+        }
         let sender = self.admission.identify(actor, Some(fragment.actor_incarnation));
         if self.admission.record_implausible(&sender, now) {
             self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined: implausible fragments in a row"));
