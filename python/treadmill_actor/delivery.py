@@ -12,6 +12,8 @@ QUARANTINE_RETRY_S = 10.0
 #: Pause before a fragment is sent again, by outcome. Other outcomes settle the fragment.
 RETRY_AFTER_S = {"busy": RETRY_S, "stopping": RETRY_S, "quarantined": QUARANTINE_RETRY_S}
 RETRIES_PER_WARNING, RETRIES_BEFORE_WARNING = 50, 5
+#: Why a fragment is sent again that no learner has answered: a slow disk looks like a lost link from here.
+NO_RECEIPT = "no receipt came: the learner may be gone, out of reach, or waiting for its disk or store, as its log says"
 log = logging.getLogger("treadmill_actor")
 
 
@@ -74,7 +76,7 @@ class Delivery:
 
     def silent(self, sequence):
         """Takes that no learner answered in time."""
-        return self._retry(sequence, RETRY_S, "no learner answers")
+        return self._retry(sequence, RETRY_S, NO_RECEIPT)
 
     def adopted(self, incarnation):
         """Takes the incarnation of the policy in use. Returns the fragments to send again, by number: another learner has only

@@ -138,6 +138,16 @@ fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
     assert!(fs::read_to_string(run.join("model.xml")).unwrap().contains("treadmill_robot_card"));
 
     write(folder.path(), "sliding.xml", &HOPPER.replace("<joint name=\"hip\"", "<joint name=\"hip\" type=\"slide\""));
+    // A redirected card names its model from where it is written.
+    std::fs::create_dir(folder.path().join("cards")).unwrap();
+    for card in ["hopper-card.toml", "cards/hopper.toml"] {
+        let file = std::fs::File::create(folder.path().join(card)).unwrap();
+        let mut drafting = treadmill(folder.path());
+        assert!(drafting.args(["robot", "hopper.xml"]).stdout(file).status().unwrap().success());
+        let drafted = std::fs::read_to_string(folder.path().join(card)).unwrap();
+        assert_eq!(drafted.contains("model = \"hopper.xml\""), card == "hopper-card.toml", "{drafted}");
+        done(folder.path(), &["robot", card]);
+    }
     assert_usage(folder.path(), &["robot", "sliding.xml"], &["sliding.xml", "hip", "slide"]);
     write(folder.path(), "wrong.toml", &report.replace("names = \"hip\"", "names = \"knee\""));
     assert_usage(folder.path(), &["robot", "wrong.toml"], &["wrong.toml", "robot card", "knee", "no hinge", "hip"]);

@@ -87,3 +87,18 @@ fn what_cannot_be_read_is_neither_missing_nor_damaged() {
     let text = stdout(&check);
     assert!(text.contains("learner.key cannot be read") && !text.contains("does not match"), "{text}");
 }
+
+#[test]
+fn several_runs_are_followed_line_by_line() {
+    let (folder, _) = folders();
+    let train =
+        |name: &str| start_endless(folder.path(), Path::new(name), "train", &["--no-progress", "--actors", "1"]);
+    let (_one, _other) = (train("runs/one"), train("runs/other"));
+    for name in ["runs/one", "runs/other"] {
+        await_steps(&folder.path().join(name), 512);
+    }
+    let watch = start(folder.path(), &["status", "--watch"]);
+    for name in ["one", "other", "one"] {
+        watch.wait_for(name);
+    }
+}

@@ -14,6 +14,9 @@ use std::{
 use bytes::Bytes;
 use treadmill_proto::{Outcome, Receipt};
 
+/// Why a fragment is sent again that no learner has answered: a slow disk looks like a lost link from here.
+const NO_RECEIPT: &str =
+    "no receipt came: the learner may be gone, out of reach, or waiting for its disk or store, as its log says";
 /// Pause before a fragment is sent again.
 const RETRY: Duration = Duration::from_millis(200);
 /// How often that pause doubles while the learner is busy.
@@ -162,7 +165,7 @@ impl Delivery {
     pub fn handle(&mut self, event: Event) -> Vec<Action> {
         match event {
             Event::Answered { sequence, receipt } => self.answered(sequence, &receipt),
-            Event::Silent { sequence } => self.retry(sequence, RETRY, "no learner answers", true),
+            Event::Silent { sequence } => self.retry(sequence, RETRY, NO_RECEIPT, true),
             Event::Heard { epoch } => {
                 self.admits(epoch);
                 Vec::new()

@@ -1,5 +1,7 @@
 //! Facts about this machine, for benchmarks and status reports.
 
+use std::path::Path;
+
 /// Returns the CPU's name, or the architecture if the system does not report one.
 pub fn cpu_name() -> String {
     let named = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
@@ -14,6 +16,26 @@ pub fn cpu_name() -> String {
 /// Returns the number of cores that this process may use.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, |cores| cores.get())
+}
+
+/// Returns the memory that this process and its siblings may use together (bytes): that of the machine, or less by a control
+/// group of version 2, as in a container. `None` where the system does not report it.
+pub fn memory_bytes() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let total = line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024;
+    let group = std::fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+    Some(group_limit_bytes(Path::new("/sys/fs/cgroup"), &group).map_or(total, |limit| limit.min(total)))
+}
+
+/// Returns the smallest `memory.max` of a process's group and those above it. `group` is the text of `/proc/PID/cgroup`.
+fn group_limit_bytes(root: &Path, group: &str) -> Option<u64> {
+    let path = group.lines().find_map(|line| line.strip_prefix("0::"))?;
+    let own = root.join(path.trim_start_matches('/'));
+    let groups = own.ancestors().take_while(|folder| folder.starts_with(root));
+    // `max` is no limit.
+    let limit = |folder: &Path| std::fs::read_to_string(folder.join("memory.max")).ok()?.trim().parse().ok();
+    groups.filter_map(limit).min()
 }
 
 /// Returns the host's name, or `unknown`.
@@ -57,6 +79,22 @@ mod tests {
         let is_utf8 = |set: &[&str]| super::is_utf8(set.iter().map(ToString::to_string));
         assert!(is_utf8(&["", "de_DE.UTF-8", "C"]) && is_utf8(&["C.utf8"]));
         assert!(!is_utf8(&[]) && !is_utf8(&["C", "de_DE.UTF-8"]) && !is_utf8(&["POSIX"]));
+    }
+
+    #[test]
+    fn the_tightest_control_group_limits_the_memory() {
+        let root = tempfile::tempdir().unwrap();
+        let own = root.path().join("system/job");
+        std::fs::create_dir_all(&own).unwrap();
+        let limit = || super::group_limit_bytes(root.path(), "1:cpu:/old\n0::/system/job\n");
+        assert_eq!(limit(), None);
+        std::fs::write(own.join("memory.max"), "max\n").unwrap();
+        std::fs::write(root.path().join("system/memory.max"), "2147483648\n").unwrap();
+        assert_eq!(limit(), Some(2 << 30), "of the group above");
+        std::fs::write(own.join("memory.max"), "1048576\n").unwrap();
+        assert_eq!(limit(), Some(1 << 20));
+        assert_eq!(super::group_limit_bytes(root.path(), "1:cpu:/old\n"), None, "version 1");
+        assert!(super::memory_bytes().is_none_or(|bytes| bytes > 1 << 20));
     }
 
     #[test]

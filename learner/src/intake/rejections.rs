@@ -90,7 +90,9 @@ mod tests {
         }
         let recent: Vec<_> = rejections.recent(now, minute).map(|(n, r)| (n, r.fragments, r.reason.as_str())).collect();
         assert_eq!(recent, [("b", 2, "second"), ("a", 1, "first")]);
-        (0..2 * SENDERS_MAX).for_each(|i| rejections.record(&format!("s{i}"), &"x".repeat(1000), now + minute));
+        for i in 0..2 * SENDERS_MAX {
+            rejections.record(&format!("s{i}"), &"x".repeat(1000), now + minute);
+        }
         assert_eq!(rejections.senders.len(), SENDERS_MAX);
         assert!(rejections.senders.values().all(|rejection| rejection.reason.len() <= REASON_CHARS_MAX));
     }

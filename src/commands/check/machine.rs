@@ -1,4 +1,4 @@
-//! Diagnoses of this machine: vector instructions, disk, open files, clock and ports.
+//! Diagnoses of this machine: vector instructions, disk, memory, open files, clock and ports.
 
 use std::{io::Write, path::Path};
 
@@ -14,6 +14,9 @@ use crate::{
 /// Free disk space below which one run, or several, may not reach their end: a run takes some tens of megabytes.
 const FREE_MIN_BYTES: u64 = 200_000_000;
 const FREE_BYTES: u64 = 1_000_000_000;
+/// Memory of a learner and of an actor with 64 robots, which their own metrics show, rounded up.
+const LEARNER_BYTES: u64 = 150_000_000;
+const ACTOR_BYTES: u64 = 60_000_000;
 /// Open files of a process before actors join, without and with checkpoints, logs and unidentified connections.
 const OWN_FILES: u64 = 128;
 const ALL_FILES: u64 = 512;
@@ -85,6 +88,27 @@ fn assess_disk(folder: &str, free_bytes: u64) -> Finding {
     }
 }
 
+/// Compares the memory, which a container may limit, with what a learner and its actors need.
+pub fn memory(actors: u64) -> Finding {
+    match machine::memory_bytes() {
+        Some(bytes) => assess_memory(bytes, actors),
+        None => Finding::note("memory", "its size is unknown", "check it with free -m"),
+    }
+}
+
+fn assess_memory(bytes: u64, actors: u64) -> Finding {
+    let needed = LEARNER_BYTES + actors.saturating_mul(ACTOR_BYTES);
+    let (has_mb, needed_mb) = (bytes / 1_000_000, needed / 1_000_000);
+    let seen =
+        format!("{has_mb} MB for this machine or container; a learner and its actors here need about {needed_mb} MB");
+    match bytes {
+        bytes if bytes < needed => {
+            Finding::problem("memory", seen, "start fewer actors here with --actors, or raise the container's limit")
+        }
+        _ => Finding::ok("memory", seen),
+    }
+}
+
 /// Compares the limit of open files with one connection per actor.
 pub fn open_files(actors: u64) -> Finding {
     match rlimit::Resource::NOFILE.get() {
@@ -136,6 +160,13 @@ pub fn listen(given: &str, network: &NetworkArgs) -> Finding {
 mod tests {
     use super::*;
     use crate::diagnosis::finding::Severity;
+
+    #[test]
+    fn memory_must_suffice_for_the_actors() {
+        assert_eq!(assess_memory(4_000_000_000, 8).severity, Severity::Ok);
+        let found = assess_memory(256_000_000, 8);
+        assert!(found.severity == Severity::Problem && found.seen.contains("630 MB"), "{found:?}");
+    }
 
     #[test]
     fn widest_kernels_are_named() {

@@ -1,7 +1,7 @@
 //! `treadmill check`: diagnoses of this machine and the route to a learner, each with a remedy.
 //!
 //! # Layout
-//! - [`machine`]: vector instructions, disk, open files, clock and ports of this machine.
+//! - [`machine`]: vector instructions, disk, memory, open files, clock and ports of this machine.
 //! - [`store`]: the store of a run's state.
 //! - [`learner`]: answer of a learner. The way to it and the certificates are diagnosed by `src/diagnosis/`.
 
@@ -74,6 +74,7 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
     let mut findings = vec![
         machine::cpu(),
         machine::disk(run.as_ref().map_or(&args.run_dir, |run| run.root())),
+        machine::memory(args.actors.unwrap_or(cores() as u64)),
         machine::open_files(args.actors.unwrap_or(cores() as u64)),
         machine::clock(time_unix_s()),
     ];

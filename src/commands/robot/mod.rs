@@ -2,7 +2,10 @@
 
 mod report;
 
-use std::path::PathBuf;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use treadmill_config::Config;
@@ -69,7 +72,7 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
         say(lines.trim_end());
         return Ok(());
     }
-    let file = args.file.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    let file = from_standard_output(&args.file);
     let comments: String = lines.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
     say(&format!("{comments}\n{}", card::draft(&robot, &file).trim_end()));
     Ok(())
@@ -81,4 +84,15 @@ fn home(mut config: EnvironmentConfig, text: &str, is_card: bool) -> Option<Home
     config.env.terminate_when_unhealthy = false;
     config.env.task = if is_card { EnvTask::Velocity } else { config.env.task };
     HomePose::of(&config, text, &TaskRegistry::default()).ok()
+}
+
+/// Returns the path of a file as the card on standard output names it: from the folder of the card, if that is a file.
+fn from_standard_output(file: &Path) -> String {
+    let Ok(whole) = fs::canonicalize(file) else { return file.display().to_string() };
+    let card = fs::read_link("/proc/self/fd/1").ok().filter(|card| card.is_file());
+    let folder = card.as_deref().and_then(Path::parent).and_then(|folder| fs::canonicalize(folder).ok());
+    match folder {
+        Some(folder) => whole.strip_prefix(folder).unwrap_or(&whole).display().to_string(),
+        None => file.display().to_string(),
+    }
 }

@@ -130,10 +130,16 @@ fn table(model: &Model) -> String {
             number(facts.effort_nm, 1),
             number(Some(hinge.armature_kgm2), 4),
             number(facts.kp, 1),
-            number(facts.kd, 2),
+            match (facts.kd.unwrap_or(0.0), hinge.damping_nmsprad) {
+                (0.0, of_joint) if of_joint > 0.0 => format!("{of_joint:.2} j"),
+                _ => number(facts.kd, 2),
+            },
             number(facts.default_rad, 3),
             number(facts.action_scale_rad, 3),
         );
+    }
+    if table.contains(" j ") {
+        table.push_str("j: damping of the joint itself, whose servo has none\n");
     }
     table
 }

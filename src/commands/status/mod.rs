@@ -34,7 +34,8 @@ use treadmill_proto::{ControlReply, RunStatus};
 use self::{local::Idle, waiting::Waiting};
 use crate::{
     launch::{
-        output::{say, say_to_reader},
+        exit_code::Usage,
+        output::{say, say_error, say_to_reader},
         terminal_screen,
     },
     shared::learner_address::{self, LearnerLink, ReachArgs},
@@ -99,6 +100,10 @@ fn show(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
 
 /// Shows the dashboard, as soon as a learner answers.
 fn show_dashboard(reach: &ReachArgs) -> anyhow::Result<()> {
+    let live = reach.live_folders();
+    if live.len() > 1 {
+        return Err(Usage(format!("several runs are trained here; name one: {}", live.join(", "))).into());
+    }
     let mut waiting = Waiting::default();
     loop {
         match dashboard::run(&waiting.for_run(reach)) {
@@ -113,6 +118,14 @@ fn show_dashboard(reach: &ReachArgs) -> anyhow::Result<()> {
 fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
     let mut waiting = Waiting::default();
     loop {
+        let live = reach.live_folders();
+        if live.len() > 1 {
+            if !show_lines_of(live, reach, json) {
+                return Ok(());
+            }
+            std::thread::sleep(WATCH_EVERY);
+            continue;
+        }
         let found = waiting.for_run(reach);
         let mut is_read = true;
         let followed = learner_address::connect(&found, Role::Observer, async |link| {
@@ -132,6 +145,28 @@ fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
         }
         waiting.after(followed)?;
     }
+}
+
+/// Prints the statuses of several runs of this machine. Returns whether the reader is still there.
+fn show_lines_of(folders: Vec<String>, reach: &ReachArgs, json: bool) -> bool {
+    let mut is_read = true;
+    for folder in folders {
+        let of_one = ReachArgs { folder: Some(folder.clone()), ..reach.clone() };
+        let shown = learner_address::connect(&of_one, Role::Observer, async |link| {
+            let runs = ask(link).await?;
+            let text = if json { json::as_json(&runs) } else { plain::as_lines(&runs) };
+            is_read = say_to_reader(text.trim_end());
+            Ok(())
+        });
+        // One that ends now must not hide the others.
+        if let Err(why) = shown {
+            say_error(&format!("{folder}: {why:#}"));
+        }
+        if !is_read {
+            break;
+        }
+    }
+    is_read
 }
 
 /// Returns the statuses of all runs that answer; fails if none does.

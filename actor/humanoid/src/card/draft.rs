@@ -25,6 +25,8 @@ struct Numbers {
     armature_kgm2: f64,
     default_rad: f64,
     is_proposed: bool,
+    /// Damping of the joint itself (N·m·s/rad).
+    of_joint: f64,
 }
 
 /// Returns a card for a model whose file is `file`. It keeps the servos of the model; where there are none it proposes
@@ -47,10 +49,16 @@ pub fn draft(model: &Model, file: &str) -> String {
     }
     // The keyframe has the angles.
     for (names, numbers) in rules(model) {
-        let Numbers { kp, kd, effort_nm, armature_kgm2, default_rad, is_proposed } = numbers;
+        let Numbers { kp, kd, effort_nm, armature_kgm2, default_rad, is_proposed, of_joint } = numbers;
         let _ = writeln!(card, "\n[[hinges]]\nnames = {}", quoted(&names));
         let note = if is_proposed { "  # proposed: the file has no servo here" } else { "" };
-        let _ = writeln!(card, "kp = {}{note}\nkd = {}", short(kp), short(kd));
+        // A servo without damping of its own may rely on that of its joint, which the card keeps.
+        let own = if kd == 0.0 && of_joint > 0.0 {
+            format!("  # the joint's own damping, {} N·m·s/rad, acts too", short(of_joint))
+        } else {
+            String::new()
+        };
+        let _ = writeln!(card, "kp = {}{note}\nkd = {}{own}", short(kp), short(kd));
         match effort_nm {
             Some(effort_nm) => {
                 let _ = writeln!(card, "effort_nm = {}", short(effort_nm));
@@ -101,6 +109,7 @@ impl Numbers {
             && near(self.armature_kgm2, other.armature_kgm2)
             && near(self.default_rad, other.default_rad)
             && self.is_proposed == other.is_proposed
+            && near(self.of_joint, other.of_joint)
     }
 }
 
@@ -115,6 +124,7 @@ fn numbers(model: &Model, index: usize) -> Numbers {
         armature_kgm2: hinge.armature_kgm2,
         default_rad: 0.0f64.clamp(hinge.min_rad, hinge.max_rad),
         is_proposed: false,
+        of_joint: hinge.damping_nmsprad,
     };
     if let Some(servo) = motor.filter(|motor| motor.bias[1] != 0.0) {
         let square = servo.gear_nm * servo.gear_nm;

@@ -17,7 +17,8 @@ pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
     let card = card::built_in(name)?;
     if text.contains(CARD_TEXT) {
         return Err(ModelError::Card(format!(
-            "the model has a card of its own beside the card `{name}`; use one of them"
+            "the model has a card of its own beside the card `{name}`; use one of them: a plain model file, or \
+             --set 'env.robot=\"\"'"
         )));
     }
     with_card(text, card)

@@ -334,6 +334,32 @@ fn an_episode_ends_like_a_time_limit_near_the_edge() {
 }
 
 #[test]
+fn the_edge_of_a_models_own_ground_ends_an_episode_like_a_time_limit() {
+    let flat = vec!["0.5"; 25].join(" ");
+    let field =
+        format!("<asset><hfield name=\"h\" nrow=\"5\" ncol=\"5\" size=\"6 3 0.1 0.1\" elevation=\"{flat}\"/></asset>");
+    let text = HUMANOID_XML.replacen("<worldbody>", &(field + "<worldbody>"), 1);
+    let start = text.find("<geom name=\"floor\"").expect("the floor");
+    let end = start + text[start..].find("/>").expect("its end") + 2;
+    let text = format!("{}<geom type=\"hfield\" hfield=\"h\" pos=\"1 0 0\"/>{}", &text[..start], &text[end..]);
+    let mut environment = Environment::new(&EnvironmentConfig::default(), &text).unwrap();
+    let mut observation = vec![0.0; environment.observation_size()];
+    let action = vec![0.0; environment.action_size()];
+    // Along x from -5 m to 7 m, along y from -3 m to 3 m; a quarter of half a side, at most 1 m, is the edge.
+    for (place_m, ends) in
+        [([5.9, 0.0], false), ([6.1, 0.0], true), ([-4.1, 0.0], true), ([0.0, 2.2], false), ([0.0, 2.3], true)]
+    {
+        environment.reset(1, &mut observation);
+        let mut position = environment.nominal_position().to_vec();
+        position[..2].copy_from_slice(&place_m);
+        let still = vec![0.0; environment.physics().velocity().len()];
+        environment.physics_mut().set_state(&position, &still);
+        let step = environment.step(&action, &mut observation);
+        assert_eq!((step.truncated, step.terminated), (ends, false), "{place_m:?}");
+    }
+}
+
+#[test]
 fn curricula_begin_with_small_commands_and_the_first_level() {
     let velocity = VelocityConfig { command_curriculum: true, standing_share: 0.0, ..VelocityConfig::default() };
     let config = EnvironmentConfig { velocity, ..config(settings(&[GroundKind::Flat], 0)) };
