@@ -60,6 +60,10 @@ impl InitFrom {
     /// If they have other names: a policy means nothing to another body.
     pub fn in_its_order(&self, text: &str, file: Option<&Path>) -> Result<String, Usage> {
         let Self { from, saved, .. } = self;
+        if saved.policy.model_xml.is_empty() {
+            let why = format!("`--init-from {from}`: it is the policy of an external task, and this run has a robot");
+            return Err(Usage(why + "; begin a run of that task by --task, or name another policy"));
+        }
         mjcf::in_order_of(text, &saved.policy.model_xml).map_err(|why| {
             let Usage(why) = model::in_file(file, &why);
             Usage(format!("`--init-from {from}`: {why}"))

@@ -102,3 +102,67 @@ fn several_runs_are_followed_line_by_line() {
         watch.wait_for(name);
     }
 }
+
+/// Returns the commands in printed lines, without what is said about them.
+fn printed_commands(lines: &[String]) -> Vec<String> {
+    let command = |line: &String| {
+        let command = &line[line.find("treadmill ")?..];
+        let command = command.split("  (").next()?.split(", also").next()?;
+        // The viewer is another program.
+        (!command.contains(" watch ")).then(|| command.trim().to_string())
+    };
+    lines.iter().filter_map(command).collect()
+}
+
+#[test]
+fn every_command_that_a_training_prints_runs_as_printed() {
+    let (folder, run_folder) = folders();
+    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().display().to_string();
+    let shell = |command: &str| {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &format!("exec {command}")]).current_dir(folder.path());
+        shell.env("PATH", format!("{program}:{}", std::env::var("PATH").unwrap()));
+        shell
+    };
+    let training = start_endless(folder.path(), &run_folder, "train", &["--no-progress", "--actors", "1"]);
+    await_steps(&run_folder, 1024);
+    // The banner ends with the line that resumes.
+    let mut lines = vec![training.wait_for("  watch     "), training.wait_for("  film      ")];
+    lines.push(training.wait_for("  resume    "));
+    let [watch, film, resume] = &printed_commands(&lines)[..] else { panic!("{lines:?}") };
+    let mut watching = Running::start(shell(watch));
+    watching.wait_for("run");
+    watching = Running::start(shell(film));
+    assert!(watching.wait().0.success(), "{film}");
+    training.signal(libc::SIGINT);
+    let (_, lines) = training.wait();
+    let commands = printed_commands(&lines);
+    assert!(commands.iter().any(|command| command == resume), "{resume} in {commands:?}");
+    let mut resumed = 0;
+    for command in &commands {
+        let running = Running::start(shell(command));
+        if command.contains("--resume") {
+            running.wait_for("  resume    ");
+            stop(running);
+            resumed += 1;
+        } else {
+            assert!(running.wait().0.success(), "{command}");
+        }
+    }
+    assert!(resumed == 1 && commands.len() >= 3, "{commands:?}");
+    // A run that has all its steps.
+    let finished =
+        run(folder.path(), &["train", "--preset", "smoke", "--steps", "512", "--run-dir", "done", "--actors", "1"]);
+    let lines: Vec<String> = stdout(&finished).lines().map(str::to_string).collect();
+    let further = lines.iter().find_map(|line| line.strip_prefix("train it further: ")).expect("the line");
+    assert!(Running::start(shell(further)).wait().0.success(), "{further}");
+    let again = stdout(&run(folder.path(), &["train", "--resume", "done"]));
+    let further = again.split("go on with: ").nth(1).expect("the command").trim().to_string();
+    assert!(Running::start(shell(&further)).wait().0.success(), "{further}");
+    // A run that nothing trains, and one that does not exist.
+    let idle = stdout(&run(folder.path(), &["status", "run"]));
+    let resume = idle.lines().find_map(|line| line.strip_prefix("  resume     ")).expect("the line");
+    let resumed = Running::start(shell(resume));
+    resumed.wait_for("  resume    ");
+    stop(resumed);
+}
