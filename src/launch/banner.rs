@@ -1,7 +1,7 @@
 //! Text that `train` and `learner` print: before a run its goal, files and commands to watch, stop and resume it; after
 //! a run its result and the next commands.
 
-use std::net::SocketAddr;
+use std::{net::SocketAddr, path::Path};
 
 use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
@@ -223,5 +223,10 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
     } else {
         say(&format!("see how far it walks: treadmill eval {run} --episodes 1 --film walk.gif"));
     }
-    say("compare it with other runs: treadmill runs");
+    let others = match folder.root().parent() {
+        Some(parent) if parent == Path::new("runs") => String::new(),
+        Some(parent) if parent != Path::new("") => format!(" {}", quoted(&parent.display().to_string())),
+        _ => " .".to_string(),
+    };
+    say(&format!("compare it with other runs: treadmill runs{others}"));
 }
