@@ -106,7 +106,13 @@ pub fn environment(
 /// All faults with which a training would learn nothing.
 pub fn examine(tasks: &TaskRegistry, config: &Config, text: &str, file: &Path) -> Result<(), Usage> {
     let found = HomePose::of(&config.environment(), text, tasks).map_err(|why| in_file(Some(file), &why))?;
-    found.warnings.iter().for_each(|what| tracing::warn!("{}: {what}", file.display()));
+    let warn = |list: &[String]| list.iter().for_each(|what| tracing::warn!("{}: {what}", file.display()));
+    warn(&found.warnings);
+    if matches!(config.env.chosen_task(), ChosenTask::Own(_)) {
+        // Its episodes may begin as they want.
+        warn(&found.faults);
+        return Ok(());
+    }
     if found.faults.is_empty() {
         return Ok(());
     }

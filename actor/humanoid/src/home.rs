@@ -72,7 +72,9 @@ impl HomePose {
         self.up = nearest_axis(&up);
         let base = &model.links[0].name;
         if up.z < AXIS_COSINE {
-            self.faults.push(format!(
+            // Only a robot with a card is to walk; another one may begin as it lies.
+            let list = if model.robot.is_some() { &mut self.faults } else { &mut self.warnings };
+            list.push(format!(
                 "the frame of the base `{base}` has its {} axis up in the default pose, but must have x forward, y left and \
                  z up; turn the frame of this body in the model, or give the pose as a keyframe",
                 self.up
@@ -176,14 +178,15 @@ impl HomePose {
         for step in 1..=steps {
             let outcome = environment.step(&action, &mut observation);
             let now_s = f64::from(step) * step_s;
-            for link in 0..model.links.len() {
-                if environment.physics().contact_wrench(link).0.z > 1.0 && !touches[link] {
-                    touches[link] = true;
-                    let since_s = now_s - *first_contact_s.get_or_insert(now_s);
-                    let is_foot = model.robot.as_ref().is_some_and(|robot| robot.feet.contains(&link));
-                    if since_s <= SETTLED_S && !is_foot && model.robot.is_some() {
-                        others.push(model.links[link].name.as_str());
-                    }
+            for (link, touched) in touches.iter_mut().enumerate() {
+                if *touched || environment.physics().contact_wrench(link).0.z <= 1.0 {
+                    continue;
+                }
+                *touched = true;
+                let since_s = now_s - *first_contact_s.get_or_insert(now_s);
+                let is_part = model.robot.as_ref().is_some_and(|robot| !robot.feet.contains(&link));
+                if since_s <= SETTLED_S && is_part {
+                    others.push(model.links[link].name.as_str());
                 }
             }
             if outcome.terminated {

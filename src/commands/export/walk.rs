@@ -48,7 +48,7 @@ pub(super) fn for_player(environment: &Environment) -> Option<ForController> {
 
 fn contract(environment: &Environment) -> Value {
     let (env, model) = (&environment.config().env, environment.physics().model());
-    let limits = |[low, high]: [f64; 2]| low.is_finite().then(|| [low, high]);
+    let limits = |[low, high]: [f64; 2]| low.is_finite().then_some([low, high]);
     let motors: Vec<Value> = model
         .motors
         .iter()
