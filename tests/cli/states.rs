@@ -28,6 +28,26 @@ fn a_killed_run_is_no_stopped_one() {
 }
 
 #[test]
+fn a_leader_that_was_killed_is_not_taken_for_another_machines() {
+    let (folder, run_folder) = folders();
+    let url = format!("file://{}/store", folder.path().display());
+    let training = start_endless(folder.path(), &run_folder, "train", &["--no-progress", "--store", &url]);
+    await_steps(&run_folder, 1024);
+    let (pid, host) = (training.pid(), treadmill_runtime::machine::host_name());
+    training.signal(libc::SIGKILL);
+    let _ = training.wait();
+    let status = run(folder.path(), &["status", "run"]);
+    assert_refused(&status, 1, &["was killed"]);
+    assert!(stdout(&status).contains("run `run` is killed"), "{}", stdout(&status));
+    // The lock of another process was left behind here.
+    let lock = fs::read_to_string(run_folder.join("lock.json")).unwrap();
+    fs::write(run_folder.join("lock.json"), lock.replace(&pid.to_string(), "1")).unwrap();
+    let status = run(folder.path(), &["status", "run"]);
+    let wanted = format!("led elsewhere: its store names process {pid} on host {host}");
+    assert!(status.status.success() && stdout(&status).contains(&wanted), "{}", stdout(&status));
+}
+
+#[test]
 fn a_run_in_a_store_is_shown_and_checked_by_its_url() {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("file://{}/store", folder.path().display());

@@ -83,10 +83,11 @@ impl Drop for RunLock {
     }
 }
 
-/// Returns whether the last process that wrote into `folder` ended without leaving, as one that was killed.
+/// Returns the last process that wrote into `folder` if it ended without saying so, as one that was killed.
 #[must_use]
-pub fn was_killed(folder: &RunFolder) -> bool {
-    holder(folder).is_none() && Holder::read(&folder.lock()).is_left_behind
+pub fn killed(folder: &RunFolder) -> Option<Holder> {
+    let last = holder(folder).is_none().then(|| Holder::read(&folder.lock()));
+    last.filter(|last| last.is_left_behind)
 }
 
 /// Returns the process that writes into `folder` now, if there is one.
@@ -112,12 +113,12 @@ mod tests {
         let refused = RunLock::take(&run).unwrap_err().to_string();
         assert!(refused.contains("which listens on tcp/127.0.0.1:7"), "{refused}");
         assert_eq!(holder(&run).unwrap().pid, Some(std::process::id()));
-        assert!(!was_killed(&run), "it lives");
+        assert_eq!(killed(&run), None, "it lives");
         let written = std::fs::read(run.lock()).unwrap();
         drop(lock);
-        assert_eq!((holder(&run), was_killed(&run)), (None, false));
+        assert_eq!((holder(&run), killed(&run)), (None, None));
         std::fs::write(run.lock(), written).unwrap();
-        assert!(was_killed(&run), "nothing was written at its end");
+        assert_eq!(killed(&run).unwrap().pid, Some(std::process::id()), "nothing was written at its end");
         assert!(RunLock::take(&run).unwrap().epoch() > epoch, "each holder has a higher one");
     }
 

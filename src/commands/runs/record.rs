@@ -13,7 +13,7 @@ use treadmill_learner::{
 };
 use treadmill_runtime::{
     run_folder::RunFolder,
-    run_lock::{holder, was_killed},
+    run_lock::{holder, killed},
 };
 
 use crate::shared::saved_run;
@@ -60,7 +60,7 @@ impl Record {
             text.parse().with_context(|| format!("`{}` is not a configuration", path.display()))?;
         let run = RunFolder::open(&folder.display().to_string()).ok();
         let is_running = run.as_ref().is_some_and(|run| holder(run).is_some());
-        let was_killed = run.as_ref().is_some_and(was_killed);
+        let was_killed = run.as_ref().is_some_and(|run| killed(run).is_some());
         let mut record = Self { name, folder: folder.to_path_buf(), is_running, was_killed, ..Self::default() };
         record.set_config(&table);
         let path = folder.join("metrics.jsonl");

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::json;
 use treadmill_learner::leadership::{Manifest, Status};
-use treadmill_runtime::{numbers::thousands, words::quoted};
+use treadmill_runtime::{numbers::thousands, run_lock::killed, words::quoted};
 
 use crate::{
     commands::runs::record::Record,
@@ -33,6 +33,10 @@ pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<Idle>> {
     // Another machine may lead a run whose state is in a store.
     let url = fs::read_to_string(folder.store()).ok();
     let manifest = url.and_then(|url| Some(saved_run::of_store(url.trim()).ok()?.1));
+    // The store may still name the process that was killed here.
+    let killed = killed(&folder);
+    let manifest =
+        manifest.filter(|of| killed.as_ref().is_none_or(|last| (last.pid, &last.host) != (Some(of.pid), &of.host)));
     Some(Record::read(folder.root()).map(|record| {
         let was_killed = record.state() == "killed" && manifest.is_none();
         Idle { text: describe(&record, &resume_line::of_folder(&folder), manifest.as_ref(), json), was_killed }
