@@ -26,20 +26,12 @@ class Robot:
 
     def __init__(self, path, contract, timestep_s=None, ground=None):
         self.contract, self.ground = contract, ground
-        try:
-            spec = mujoco.MjSpec.from_file(str(path))
-        except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
-            raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
         self.notes = []
-        _replace_servos(spec, path, contract, self.notes)
-        # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
-        spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+        spec = read_model(path)
+        _add_servos(spec, path, contract, self.notes)
         replace_floor(spec, ground, self.notes)
         self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
-        try:
-            self.model = spec.compile()
-        except ValueError as why:
-            raise TransferError(f"the model `{path}` does not compile with the contract's servos ({one_line(why)})") from why
+        self.model = compiled(spec, path)
         self.data = mujoco.MjData(self.model)
         self._find(path)
 
@@ -246,6 +238,38 @@ def substeps(control_step_s, file_s, wanted_s=None):
     return count, control_step_s / count
 
 
+def read_model(path):
+    """Returns the model of a file without its actuators."""
+    try:
+        spec = mujoco.MjSpec.from_file(str(path))
+    except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
+        raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
+    # Keyframes hold controls of the file's actuators, and such sensors their forces.
+    actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
+    for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
+        spec.delete(item)
+    # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
+    spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    return spec
+
+
+def compiled(spec, path):
+    """Returns the compiled model of a file with the contract's actuators."""
+    try:
+        return spec.compile()
+    except ValueError as why:
+        raise TransferError(f"the model `{path}` does not compile with the contract's actuators ({one_line(why)})") from why
+
+
+def joint_of(spec, path, name):
+    """Returns a joint of the contract."""
+    joint = spec.joint(name)
+    if joint is None:
+        known = ", ".join(known.name for known in spec.joints if known.name)
+        raise TransferError(f"the model `{path}` has no joint `{name}` of the contract; it has: {known}")
+    return joint
+
+
 def plain_actuator():
     """Returns the attributes of an actuator of an empty model."""
     actuator = mujoco.MjSpec().add_actuator()
@@ -255,21 +279,14 @@ def plain_actuator():
     return {key: value for key, value in values.items() if not callable(value)}
 
 
-def _replace_servos(spec, path, contract, notes):
-    # Keyframes hold controls of the file's actuators, and such sensors their forces.
-    actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
-    for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
-        spec.delete(item)
+def _add_servos(spec, path, contract, notes):
     for name, what in [(contract.base_body, "the base"), *((foot, "a foot") for foot in contract.feet_bodies)]:
         if spec.body(name) is None:
             raise TransferError(f"the model `{path}` has no body `{name}`, {what} of the contract")
     plain = plain_actuator()
     for joints in (contract.joints, contract.held):
         for index, name in enumerate(joints.names):
-            joint = spec.joint(name)
-            if joint is None:
-                known = ", ".join(known.name for known in spec.joints if known.name)
-                raise TransferError(f"the model `{path}` has no joint `{name}` of the contract; it has: {known}")
+            joint = joint_of(spec, path, name)
             joint.armature = joints.armature_kgm2[index]
             # The contract's effort is the only limit of torque.
             if joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE and 0.0 < joint.actfrcrange[1] < joints.effort_nm[index]:

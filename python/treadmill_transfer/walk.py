@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy
 
-from .contract import Fields, TransferError, one_line
-from .robot import DIVERGED, plain_actuator, replace_floor, substeps
+from .contract import Fields, TransferError
+from .robot import DIVERGED, compiled, joint_of, plain_actuator, read_model, replace_floor, substeps
 from .trace import largest_difference
 
 KEYS = ("observation", "action", "episode", "qpos", "qvel")
@@ -103,19 +103,11 @@ class Walker:
 
     def __init__(self, path, contract, timestep_s=None):
         self.contract, self.notes = contract, []
-        try:
-            spec = mujoco.MjSpec.from_file(str(path))
-        except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
-            raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
-        _replace_motors(spec, path, contract)
-        # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
-        spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+        spec = read_model(path)
+        _add_motors(spec, path, contract)
         replace_floor(spec, None, self.notes)
         self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
-        try:
-            self.model = spec.compile()
-        except ValueError as why:
-            raise TransferError(f"the model `{path}` does not compile with the contract's motors ({one_line(why)})") from why
+        self.model = compiled(spec, path)
         self.data = mujoco.MjData(self.model)
         bodies = [self.model.body(index).name for index in range(1, self.model.nbody)]
         joints = [self.model.joint(index).name for index in range(1, self.model.njnt)]
@@ -165,16 +157,10 @@ _BLOCKS = {
 }
 
 
-def _replace_motors(spec, path, contract):
-    actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
-    for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
-        spec.delete(item)
+def _add_motors(spec, path, contract):
     plain = plain_actuator()
     for motor in contract.motors:
-        if spec.joint(motor.joint) is None:
-            known = ", ".join(joint.name for joint in spec.joints if joint.name)
-            raise TransferError(f"the model `{path}` has no joint `{motor.joint}` of the contract; it has: {known}")
-        added = spec.add_actuator(name=motor.name, target=motor.joint)
+        added = spec.add_actuator(name=motor.name, target=joint_of(spec, path, motor.joint).name)
         for key, value in plain.items():
             setattr(added, key, value)
         added.trntype = mujoco.mjtTrn.mjTRN_JOINT

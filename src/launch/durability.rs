@@ -109,7 +109,7 @@ impl LearnerRun<'_> {
                 // A store that fails now is waited for later.
                 if let Ok(Some(found)) = block_in_place(|| newest_state(store)) {
                     let state = checkpoint::read(&found.manifest.state, &found.state)?;
-                    resumption::check_flags(self.launcher, &state, self.new, self.any, self.changes)?;
+                    resumption::agreed_config(self.launcher, &state, self.new, self.any, self.changes)?;
                 }
                 Ok(None)
             }

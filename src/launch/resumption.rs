@@ -63,19 +63,9 @@ pub fn go_on(
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
-    let mut config = state.config().map_err(anyhow::Error::msg)?;
-    prepared::check_external(launcher.command, &config, any)?;
-    // Labels describe the run and may change at each start, as may the number of processes.
-    let saved_run = config.run.clone();
-    for (key, value) in new.labels() {
-        let mut source = ConfigSource::default();
-        source.text(&config.to_toml(), "the saved configuration")?;
-        source.value(key, value)?;
-        config = source.build()?;
-    }
+    let saved_run = state.config().map_err(anyhow::Error::msg)?.run;
+    let mut config = agreed_config(launcher, &state, new, any, changes)?;
     let has_new_labels = config.run != saved_run;
-    let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
-    check_agreement(&config, new, any, launcher.tasks, &kept)?;
     let device = prepared::open_device(&config, any.device)?;
     if !config.is_external() {
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
@@ -132,21 +122,29 @@ fn check_folder(folder: &RunFolder, new: &NewRunArgs) -> Result<(), Usage> {
     }
 }
 
-/// Checks flags against a state of a store before this process waits for its turn to lead.
+/// Returns the saved configuration with the labels of this start.
 ///
 /// # Errors
-/// As [`go_on`].
-pub fn check_flags(
+/// If flags differ from the saved run.
+pub fn agreed_config(
     launcher: Launcher<'_>,
     state: &TrainingState,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
-) -> anyhow::Result<()> {
-    let config = state.config().map_err(anyhow::Error::msg)?;
+) -> anyhow::Result<Config> {
+    let mut config = state.config().map_err(anyhow::Error::msg)?;
     prepared::check_external(launcher.command, &config, any)?;
+    // Labels describe the run and may change at each start, as may the number of processes.
+    for (key, value) in new.labels() {
+        let mut source = ConfigSource::default();
+        source.text(&config.to_toml(), "the saved configuration")?;
+        source.value(key, value)?;
+        config = source.build()?;
+    }
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
-    check_agreement(&config, new, any, launcher.tasks, &kept)
+    check_agreement(&config, new, any, launcher.tasks, &kept)?;
+    Ok(config)
 }
 
 /// Refuses flags of new runs that would change the saved configuration. The goal is not among them: only `--steps` sets it.

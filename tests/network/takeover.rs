@@ -239,7 +239,7 @@ fn a_run_in_a_store_is_begun_only_once() {
     assert_refused(&train("second", "2048", &[]), 2, &["holds run", "--resume-or-start", "--standby"]);
     let finished = train("second", "2048", &["--resume-or-start"]);
     assert!(finished.status.success() && stdout(&finished).contains("is finished"), "{}", stderr(&finished));
-    let further = train("third", "4096", &["--resume-or-start", "--json"]);
+    let further = train("third", "4096", &["--resume-or-start", "--json", "--tag", "night"]);
     assert!(further.status.success(), "{}", stderr(&further));
     assert!(last_json(&further)["env_steps"].as_u64() >= Some(4096));
     // The folders have no checkpoints.

@@ -31,7 +31,7 @@ const SETTLED_S: f64 = 0.1;
 pub struct HomePose {
     /// Names of the links that touch the ground in the first second, in the order of the model.
     pub touching: Vec<String>,
-    /// Axis of the base, such as `+x`, that points forward: from the feet, if there are two. And the one that points up.
+    /// Axis of the base that points forward, such as `+x`, by the places of two feet; `None` without them.
     pub forward: Option<&'static str>,
     /// Axis of the base that points up.
     pub up: &'static str,

@@ -3,14 +3,11 @@
 use std::fs;
 
 use serde_json::json;
-use treadmill_learner::leadership::{Manifest, Status};
+use treadmill_learner::leadership::{Manifest, Status, read_manifest};
 use treadmill_runtime::{numbers::thousands, run_lock::killed, words::quoted};
+use treadmill_store::Store;
 
-use crate::{
-    commands::runs::record::Record,
-    launch::resume_line,
-    shared::{learner_address::ReachArgs, saved_run},
-};
+use crate::{commands::runs::record::Record, launch::resume_line, shared::learner_address::ReachArgs};
 
 /// Text about a run that no process trains by this folder.
 pub struct Idle {
@@ -32,7 +29,7 @@ pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<Idle>> {
     let folder = reach.idle_folder()?;
     // Another machine may lead a run whose state is in a store.
     let url = fs::read_to_string(folder.store()).ok();
-    let manifest = url.and_then(|url| Some(saved_run::of_store(url.trim()).ok()?.1));
+    let manifest = url.and_then(|url| Some(read_manifest(&Store::open(url.trim()).ok()?).ok()??.0));
     // The store may still name the process that was killed here.
     let killed = killed(&folder);
     let manifest =
