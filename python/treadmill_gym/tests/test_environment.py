@@ -210,7 +210,7 @@ class Keywords(unittest.TestCase):
         self.refuse("healthy_z_range.*but must be", healthy_z_range=(2.0, 1.0))
         self.refuse("healthy_z_range is 1.0, but must be two numbers", healthy_z_range=1.0)
         self.refuse("starts with its root at 1.4 m", healthy_z_range=(1.5, 2.0))
-        self.refuse("reset_noise_scale is -1.0, but must be 0 to 1", reset_noise_scale=-1)
+        self.refuse("reset_noise_scale is -1, but must be 0 to 1", reset_noise_scale=-1)
         self.refuse("substeps is 0, but must be 1 to 1000", substeps=0)
         self.refuse("substeps is 2.5", substeps=2.5)
         self.refuse("control_step_s is 0.2, but must be 0.001 to 0.1", control_step_s=0.2)
