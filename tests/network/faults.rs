@@ -123,6 +123,29 @@ fn a_killed_learner_is_resumed_while_its_actors_wait() {
 }
 
 #[test]
+fn an_actor_joins_the_run_that_replaces_its_own() {
+    let (folder, run) = folders();
+    let learner = start_endless(folder.path(), &run, "learner", &["--listen", "tcp/127.0.0.1:0"]);
+    let endpoint = endpoint(&run);
+    let actor = actor(folder.path(), &endpoint, "a");
+    await_steps(&run, 1024);
+    learner.signal(libc::SIGKILL);
+    learner.wait();
+
+    // Same name and address, other observations: fragments of the first run would be malformed in the second.
+    let other = folder.path().join("other/run");
+    let keys = set(&["env.observation=gymnasium-v5"]);
+    let learner = start_endless(folder.path(), &other, "learner", &[&["--listen", &endpoint], &keys[..]].concat());
+    actor.wait_for("the learner replaced the run; rejoining");
+    await_steps(&other, 1024);
+    stop(learner);
+    let counts = load_file(&other.join("checkpoints/latest.bundle")).unwrap().fragment_counts;
+    assert!(counts.accepted > 0, "{counts:?}");
+    assert_eq!((counts.malformed, counts.quarantined), (0, 0), "{counts:?}");
+    stop(actor);
+}
+
+#[test]
 fn a_failed_save_ends_the_run_with_the_last_checkpoint_intact() {
     let (folder, run) = folders();
     let first = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];

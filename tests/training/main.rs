@@ -1,8 +1,9 @@
-//! Training runs from start to end: determinism, resuming, warm starts, evaluation, TensorBoard, GPUs.
+//! Training runs from start to end: determinism, resuming, warm starts, full disks, evaluation, TensorBoard, GPUs.
 
 #[cfg(feature = "cuda")]
 mod cuda;
 mod evaluation;
+mod full_disk;
 mod own_task;
 mod resume;
 #[path = "../support/mod.rs"]

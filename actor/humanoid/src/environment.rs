@@ -11,6 +11,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
 pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
+use crate::clearance;
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
@@ -34,6 +35,8 @@ pub struct Environment {
     /// State at which episodes start, without noise.
     nominal_position: Vec<f64>,
     nominal_velocity: Vec<f64>,
+    /// Height of its lowest part above the ground (m), if episodes start with that, see [`Task::starts_on_ground`].
+    nominal_clearance_m: Option<f64>,
     /// Buffers of the reset: position and velocity vectors with noise.
     start_position: Vec<f64>,
     start_velocity: Vec<f64>,
@@ -77,6 +80,12 @@ impl Environment {
         let action_size = physics.model().motors.len();
         let mut task = tasks.build(config, &physics)?;
         let mut last_observation = vec![0.0; task.terms().last().map_or(0, |term| term.range.end)];
+        // The default pose stands on ground at height 0, not on the middle of the generated ground.
+        let nominal_clearance_m = match config.ground.kinds.is_empty() {
+            true => clearance::of_robot_m(&physics),
+            false => clearance::of_robot_above_zero_m(&physics),
+        };
+        let nominal_clearance_m = nominal_clearance_m.filter(|_| task.starts_on_ground());
         task.begin(0, &physics);
         task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
         Ok(Self {
@@ -91,6 +100,7 @@ impl Environment {
             task,
             nominal_position,
             nominal_velocity,
+            nominal_clearance_m,
             last_observation,
             physics,
             action: vec![0.0; action_size],
@@ -165,6 +175,11 @@ impl Environment {
         self.randomiser.begin_episode(seed, &mut self.physics);
         // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
+        if let Some(nominal_m) = self.nominal_clearance_m {
+            let clearance_m = clearance::of_robot_m(&self.physics).unwrap_or(nominal_m);
+            self.start_position[2] += nominal_m - clearance_m;
+            self.physics.set_state(&self.start_position, &self.start_velocity);
+        }
         self.episode_steps = 0;
         self.was_pushed = false;
         self.task.begin(seed, &self.physics);

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::clearance;
 use crate::config::EnvironmentConfig;
 use crate::environment::Environment;
 use crate::error::ModelError;
@@ -84,7 +85,7 @@ impl HomePose {
 
     /// Finds out how deep in the ground, or how high above it, the lowest link is.
     fn examine_ground(&mut self, model: &Model, physics: &Physics) {
-        let lowest = (0..model.links.len()).filter_map(|link| Some((link, clearance_m(model, physics, link)?)));
+        let lowest = (0..model.links.len()).filter_map(|link| Some((link, clearance::of_link_m(physics, link)?)));
         let Some((link, height_m)) = lowest.min_by(|one, other| one.1.total_cmp(&other.1)) else {
             return self.faults.push(
                 "no shape of the robot can touch the ground; check contype, conaffinity and <pair> in the model"
@@ -114,7 +115,7 @@ impl HomePose {
             return self.faults.push(format!("`feet` names `{}` twice; name the left and the right foot", name(left)));
         }
         for foot in [left, right] {
-            let Some(height_m) = clearance_m(model, physics, foot) else {
+            let Some(height_m) = clearance::of_link_m(physics, foot) else {
                 self.faults.push(format!(
                     "foot `{}` has no shape that can touch the ground; name the link that has one, or give it one (contype, \
                      conaffinity, <pair>)",
@@ -124,7 +125,7 @@ impl HomePose {
             };
             let below = (0..model.links.len())
                 .filter(|link| is_below(model, *link, foot))
-                .filter_map(|link| Some((link, clearance_m(model, physics, link)?)))
+                .filter_map(|link| Some((link, clearance::of_link_m(physics, link)?)))
                 .min_by(|one, other| one.1.total_cmp(&other.1));
             if let Some((lower, lower_m)) = below.filter(|(_, lower_m)| *lower_m < height_m - BELOW_FOOT_M) {
                 self.faults.push(format!(
@@ -256,20 +257,6 @@ fn is_below(model: &Model, link: usize, above: usize) -> bool {
 
 fn link_pose(model: &Model, physics: &Physics, link: usize) -> Isometry3<f64> {
     physics.body_motion(model.links[link].body).pose * model.links[link].pose
-}
-
-/// Returns the height above the ground of the lowest point of a link's shapes that can touch it (m); `None` without any.
-fn clearance_m(model: &Model, physics: &Physics, link: usize) -> Option<f64> {
-    let of = &model.links[link];
-    let pose = physics.body_motion(of.body).pose;
-    let on_ground = model.pairs.iter().filter(|pair| pair.second.is_none() && pair.first.body == of.body);
-    let shapes = on_ground.map(|pair| pair.first.shape).filter(|shape| of.shapes.contains(shape));
-    let heights = shapes.map(|shape| {
-        let geometry = &model.bodies[of.body].shapes[shape].geometry;
-        let centre = pose * geometry.centre_m();
-        geometry.lowest_m(&pose) - physics.ground_height_m(centre.x, centre.y)
-    });
-    heights.min_by(f64::total_cmp)
 }
 
 #[cfg(test)]

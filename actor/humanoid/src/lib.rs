@@ -42,6 +42,7 @@ pub mod physics;
 pub mod task;
 
 mod articulation;
+mod clearance;
 mod collision;
 mod dynamics;
 mod lanes;

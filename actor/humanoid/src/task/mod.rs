@@ -94,6 +94,13 @@ pub trait Task: Any + Send + Sync {
     /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
     fn start(&mut self, _seed: u64, _physics: &Physics, _position: &mut [f64]) {}
 
+    /// Returns whether the lowest part of the robot begins each episode as high above the ground as in the default pose. The
+    /// noise of the start, see `env.reset_noise_scale`, otherwise lifts robots, or sinks them into the ground, which throws
+    /// them up.
+    fn starts_on_ground(&self) -> bool {
+        false
+    }
+
     /// Begins an episode with the robot in its first state.
     fn begin(&mut self, seed: u64, physics: &Physics);
 

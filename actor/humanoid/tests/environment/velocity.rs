@@ -6,6 +6,7 @@ use treadmill_humanoid::{
     EnvConfig, EnvTask, Environment, EnvironmentConfig, EpisodeState, Mirror, RandomisationConfig,
 };
 
+use crate::ground::clearance_m;
 use crate::support::reset;
 
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
@@ -58,6 +59,22 @@ fn the_terms_have_the_fields_names_and_those_of_the_critic_come_last() {
         assert!(terms.iter().filter(|term| term.is_privileged).all(|term| term.range.start >= of_policy));
         assert_eq!(environment.observation_size(), of_policy + OF_CRITIC);
         assert_eq!(environment.privileged_size(), OF_CRITIC);
+    }
+}
+
+#[test]
+fn noise_neither_lifts_a_robot_nor_sinks_it_into_the_ground() {
+    let start = |noise: f64, seed: u64| {
+        let env = EnvConfig { reset_noise_scale: noise, ..walking(0.0) };
+        let mut environment = environment(&EnvironmentConfig { env, ..config(VelocityConfig::default()) });
+        reset(&mut environment, seed);
+        (clearance_m(environment.physics()), environment.physics().position()[2])
+    };
+    let (standing_m, base_m) = start(0.0, 0);
+    for seed in 0..30 {
+        let (clearance_m, noisy_m) = start(0.1, seed);
+        assert!((clearance_m - standing_m).abs() < 1e-9, "seed {seed}: {clearance_m} m, {standing_m} m without noise");
+        assert_ne!(noisy_m, base_m);
     }
 }
 

@@ -231,6 +231,10 @@ impl Task for VelocityTask {
         position[3..7].copy_from_slice(&[cos * w - sin * z, cos * x - sin * y, cos * y + sin * x, cos * z + sin * w]);
     }
 
+    fn starts_on_ground(&self) -> bool {
+        true
+    }
+
     fn begin(&mut self, seed: u64, physics: &Physics) {
         self.seed = seed;
         let mut encoders = stream(seed, "encoders");
