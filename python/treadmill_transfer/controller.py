@@ -20,11 +20,15 @@ class Controller:
     def reset(self):
         """Begins an episode."""
         self.steps = 0
+        self.standing_steps = 0
         self.action = numpy.zeros(len(self.contract.joints.names))
         self._frames = None
 
     def observe(self, robot, command):
         """Returns the whole observation of the present state; once per control step."""
+        contract, stands = self.contract, numpy.linalg.norm(command) < self.contract.gait_rests_below
+        is_disturbed = contract.gait_rests_after_s > 0.0 and rests(contract, self.standing_steps) and not is_calm(contract, robot)
+        self.standing_steps = (0 if is_disturbed else self.standing_steps) + 1 if stands else 0
         frame = numpy.concatenate([_TERMS[name](self, robot, command) for name, _ in self.contract.observation])
         if self._frames is None:
             self._frames = [frame] * self.contract.history
@@ -60,9 +64,20 @@ class Controller:
         return f"{name}[{part}]" + (f", {age} frames ago" if age else "")
 
 
-def phase(contract, steps, command):
-    """Returns sine and cosine of the gait's phase after so many control steps; zeros while the command says: stand."""
-    if numpy.linalg.norm(command) < contract.gait_rests_below:
+def is_calm(contract, robot):
+    """Returns whether a robot at rest is not disturbed."""
+    is_upright = numpy.linalg.norm(robot.rotation[2, :2]) < contract.gait_rests_tilt
+    return is_upright and numpy.linalg.norm(robot.angular_radps) < contract.gait_rests_rate_radps
+
+
+def rests(contract, standing_steps):
+    """Returns whether the gait rests after so many control steps, with the present one, under a command to stand."""
+    return standing_steps > 0 and (standing_steps - 1) * contract.control_step_s >= contract.gait_rests_after_s
+
+
+def phase(contract, steps, standing_steps):
+    """Returns sine and cosine of the gait's phase after so many control steps; zeros where the gait rests."""
+    if rests(contract, standing_steps):
         return numpy.zeros(2)
     angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
     return numpy.array([math.sin(angle), math.cos(angle)])
@@ -82,6 +97,6 @@ _TERMS = {
     "joint_pos_rel": lambda self, robot, _: robot.angles_rad - self.contract.joints.default_rad,
     "joint_vel_rel": lambda _, robot, __: robot.rates_radps,
     "last_action": lambda self, _, __: self.action,
-    "gait_phase": lambda self, _, command: phase(self.contract, self.steps, command),
+    "gait_phase": lambda self, _, __: phase(self.contract, self.steps, self.standing_steps),
     "height_scan": lambda self, robot, _: height_scan(self.contract, robot),
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "cuda")]
 mod cuda;
+mod each_key;
 mod evaluation;
 mod full_disk;
 mod own_task;

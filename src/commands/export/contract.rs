@@ -7,7 +7,8 @@ use treadmill_humanoid::{
     config::ChosenTask,
     model::{HingeControl, Robot},
     task::velocity::{
-        ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
+        ACTION_MAX, CALM_RATE_RADPS, CALM_TILT, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND,
+        TERMS, TermRow,
     },
 };
 use treadmill_policy::onnx::ForController;
@@ -150,6 +151,11 @@ impl Contract {
             ("gait_period_s", json!(velocity.gait_period_s)),
             // Norm of the command below which the phase is (0, 0).
             ("gait_rests_below", json!(if velocity.gait_rests { STANDING_COMMAND } else { 0.0 })),
+            // Time for which it must have been below, and for which the phase comes back when tilt (horizontal part of
+            // gravity) or angular velocity exceed these.
+            ("gait_rests_after_s", json!(velocity.gait_rests_after_s)),
+            ("gait_rests_tilt", json!(CALM_TILT)),
+            ("gait_rests_rate_radps", json!(CALM_RATE_RADPS)),
             (
                 "height_scan",
                 json!({

@@ -23,7 +23,7 @@ fn fixed(kinds: &[GroundKind], start_level: u32) -> GroundConfig {
 }
 
 fn config(ground: GroundConfig) -> EnvironmentConfig {
-    EnvironmentConfig { env: walking(0.05), ground, ..EnvironmentConfig::default() }
+    EnvironmentConfig { env: walking(0.0), ground, ..EnvironmentConfig::default() }
 }
 
 fn field(environment: &Environment) -> &Arc<HeightField> {
@@ -186,13 +186,16 @@ fn robots_start_standing_on_their_tile_and_every_heading_occurs() {
     for kind in ALL {
         for level in [0, 9] {
             let settings = fixed(&[kind], level);
-            let mut environment = environment(&config(settings.clone()));
+            let mut environment = environment(&EnvironmentConfig { env: walking(0.05), ..config(settings.clone()) });
             for number in 0..6 {
                 let seed = number * 100 + 10 * u64::from(level) + kind as u64;
                 let mut observation = reset(&mut environment, seed);
                 let physics = environment.physics();
                 let (place, [x_m, y_m]) = (physics.position().to_vec(), settings.tile_centre_m(level, 0));
-                assert!((place[0] - x_m).abs() <= 0.55 && (place[1] - y_m).abs() <= 0.55, "{kind:?} {level}: {place:?}");
+                assert!(
+                    (place[0] - x_m).abs() <= 0.55 && (place[1] - y_m).abs() <= 0.55,
+                    "{kind:?} {level}: {place:?}"
+                );
                 let clearance_m = clearance_m(physics);
                 assert!((-0.005..0.005).contains(&clearance_m), "{kind:?} {level}: {clearance_m} m above the ground");
                 let forward = physics.body_motion(0).pose.rotation * nalgebra::Vector3::x();

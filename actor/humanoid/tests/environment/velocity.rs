@@ -79,6 +79,26 @@ fn noise_neither_lifts_a_robot_nor_sinks_it_into_the_ground() {
 }
 
 #[test]
+fn the_phase_rests_some_time_after_a_command_to_stand() {
+    let velocity = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.04, ..VelocityConfig::default() };
+    let mut environment = environment(&config(velocity));
+    let phase = environment.terms().iter().find(|term| term.name == "gait_phase").unwrap().range.clone();
+    let action = middle(&environment);
+    environment.steer(Some([0.5, 0.0, 0.0]));
+    let mut row = reset(&mut environment, 5);
+    let mut shown = Vec::new();
+    let [still, slow] = [[0.05, 0.05, 0.06], [0.06, 0.06, 0.06]];
+    for command in [still, still, still, still, slow, still] {
+        environment.steer(Some(command));
+        environment.step(&action, &mut row);
+        shown.push(row[phase.clone()].iter().any(|number| *number != 0.0));
+        // Another look at the same state is no time.
+        environment.observe(&mut row).unwrap();
+    }
+    assert_eq!(shown, [true, true, false, false, true, true]);
+}
+
+#[test]
 fn a_history_holds_the_last_observations_and_begins_with_the_first_one() {
     let mut environment = environment(&config(VelocityConfig { history: 3, ..VelocityConfig::default() }));
     let mut row = reset(&mut environment, 5);

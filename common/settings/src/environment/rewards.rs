@@ -55,7 +55,7 @@ rewards! {
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate = -0.05;
     /// Share of the feet that stand or swing as the gait says, less the share of the others. With `velocity.gait_rests`, a
-    /// robot that is to stop earns nothing until it is slow and upright.
+    /// robot whose gait is to rest earns nothing until it can come to rest without a step.
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;
@@ -68,7 +68,7 @@ rewards! {
     landing = 0.0;
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
     pose = -0.5;
-    /// Squared rates of the hinges (rad²/s²), while the robot is to stand and is slow and upright.
+    /// Squared rates of the hinges (rad²/s²), while the robot is to stand and needs no step for that.
     stand_still = 0.0;
     /// Squared change of the action from step to step, in units of the action.
     action_rate = -0.01;

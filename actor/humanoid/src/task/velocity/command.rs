@@ -29,11 +29,6 @@ impl Command {
         self.lin_vel_x_mps.hypot(self.lin_vel_y_mps).hypot(self.ang_vel_z_radps) < STANDING_COMMAND
     }
 
-    /// Returns whether the policy sees no phase of the gait under it.
-    pub(super) fn hides_phase(&self, config: &VelocityConfig) -> bool {
-        config.gait_rests && self.stands()
-    }
-
     /// Returns the command of these numbers, see [`Self::numbers`].
     #[must_use]
     pub fn from_numbers([lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps]: [f64; 3]) -> Self {

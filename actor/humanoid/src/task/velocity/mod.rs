@@ -4,6 +4,7 @@
 //! are those of Isaac Lab and mjlab.
 //!
 //! # Layout
+//! - `balance`: whether the robot can come to rest without a step.
 //! - `command`: the schedule of commands.
 //! - `curriculum`: difficulty of ground and commands.
 //! - `feet`: feet and gait.
@@ -12,6 +13,7 @@
 //! - `saved`: the task's state as numbers.
 //! - `scan`: the ground around the base.
 
+mod balance;
 mod command;
 mod curriculum;
 mod feet;
@@ -24,6 +26,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use rand::RngExt;
 
+pub use self::balance::{CALM_RATE_RADPS, CALM_TILT};
+use self::balance::{Standing, capture_point_m, is_disturbed};
 use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
@@ -74,8 +78,10 @@ pub struct VelocityTask {
     drawn: Drawn,
     drawn_left_steps: u32,
     command: Command,
-    /// Command of the last observation, for which the next step is rewarded.
-    observed: Command,
+    standing: Standing,
+    in_training: bool,
+    /// Command of the last observation, for which the next step is rewarded, and whether the robot was to rest.
+    observed: (Command, bool),
     command_changes: u32,
     episode_steps: u32,
     actions: Vec<f64>,
@@ -122,6 +128,7 @@ impl VelocityTask {
             default_rad: default[7..].to_vec(),
             pose_weights: pose_weights(physics),
             height_m: default[2],
+            capture_point_m: capture_point_m(physics, feet_links, 0.0),
             may_lift_higher: ground.is_some(),
         };
         let standing = |foot: usize| match &ground {
@@ -156,7 +163,9 @@ impl VelocityTask {
             drawn: Drawn::default(),
             drawn_left_steps: 0,
             command: Command::default(),
-            observed: Command::default(),
+            standing: Standing::default(),
+            in_training: config.has_curricula,
+            observed: (Command::default(), false),
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
@@ -203,6 +212,11 @@ impl VelocityTask {
         self.drawn_left_steps = self.drawn.steps;
     }
 
+    /// Returns whether the policy sees no phase of the gait.
+    fn hides_phase(&self) -> bool {
+        self.command.stands() && self.standing.rests(&self.config, self.step_s)
+    }
+
     fn time_s(&self) -> f64 {
         f64::from(self.episode_steps) * self.step_s
     }
@@ -242,6 +256,7 @@ impl Task for VelocityTask {
         self.encoder_errors_rad.fill_with(|| (2.0 * encoders.random::<f64>() - 1.0) * bias_rad);
         self.draw(0);
         self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, self.base(physics).heading_rad));
+        self.standing = Standing::default();
         self.episode_steps = 0;
         self.actions.fill(0.0);
         self.actions_before.fill(0.0);
@@ -270,7 +285,7 @@ impl Task for VelocityTask {
             torques_nm: physics.joint_torques_nm(),
             actions: [&self.actions, &self.actions_before],
         };
-        let (config, step_s, command) = (&self.config, self.step_s, self.observed);
+        let (config, step_s, (command, is_to_rest)) = (&self.config, self.step_s, self.observed);
         let has_fallen =
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         let moved = RobotStep {
@@ -278,8 +293,10 @@ impl Task for VelocityTask {
             model: physics.model(),
             body: &self.body,
             command,
+            is_to_rest,
             base,
             feet: &self.feet,
+            capture_point_m: capture_point_m(physics, self.feet_links, base.heading_rad),
             hinges,
             time_s: self.time_s(),
             step_s,
@@ -321,8 +338,10 @@ impl Task for VelocityTask {
         seen.copy_from_slice(&self.past);
         if !is_again {
             seen.rotate_left(width);
+            let is_disturbed = self.hides_phase() && is_disturbed(&self.base(physics), self.in_training);
+            self.standing = self.standing.after(self.command.stands(), is_disturbed);
         }
-        self.observed = self.command;
+        self.observed = (self.command, self.standing.is_to_rest(&self.config, self.step_s));
         self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {

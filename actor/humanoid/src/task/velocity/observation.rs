@@ -130,15 +130,17 @@ pub const TERMS: &[TermRow] = &[
     }),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
-        let VelocityTask { config, command, .. } = view.task;
-        let (sin, cos) = match command.hides_phase(config) {
+        let (sin, cos) = match view.task.hides_phase() {
             true => (0.0, 0.0),
-            false => (TAU * view.task.time_s() / config.gait_period_s).sin_cos(),
+            false => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
         };
         [sin, cos].into_iter().for_each(write);
     })
     .with_deploy_params(|config| match config.gait_rests {
-        true => format!("{{period: {:?}, command_threshold: {STANDING_COMMAND:?}}}", config.gait_period_s),
+        true => format!(
+            "{{period: {:?}, command_threshold: {STANDING_COMMAND:?}, command_threshold_delay: {:?}}}",
+            config.gait_period_s, config.gait_rests_after_s
+        ),
         false => format!("{{period: {:?}}}", config.gait_period_s),
     }),
     TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, noise, write| {

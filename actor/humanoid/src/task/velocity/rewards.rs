@@ -1,6 +1,6 @@
 //! Terms of the reward, each a pure function.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
 use super::command::Command;
 use super::feet::{FEET, Foot, Stride, stride};
@@ -10,10 +10,9 @@ use crate::physics::Physics;
 
 /// Time in the air from which a landing is rewarded (s).
 const AIR_TIME_S: f64 = 0.4;
-/// Horizontal velocity below which a robot that is commanded to stand puts both feet down (m/s).
-const SLOW_MPS: f64 = 0.3;
-/// Horizontal part of gravity's direction in the frame of the base, below which it does so.
-const UPRIGHT: f64 = 0.1;
+/// Distance of the capture point from its place in the default pose below which a robot that is commanded to stand puts both
+/// feet down, as a share of the standing height: about half of the way from the middle of the feet to their toes and heels.
+const BALANCED_SHARE: f64 = 0.06;
 /// Share of a hinge's range, from its middle, beyond which it is near its limit.
 const SOFT_LIMIT_SHARE: f64 = 0.9;
 /// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
@@ -98,6 +97,8 @@ pub struct Stance {
     pub pose_weights: Vec<f64>,
     /// Height of the base in the default pose (m).
     pub height_m: f64,
+    /// Capture point of the default pose, relative to the middle of the feet: forward and left (m).
+    pub capture_point_m: Vector2<f64>,
     /// Whether swinging feet may be higher than the gait wants, to reach the next stair.
     pub may_lift_higher: bool,
 }
@@ -113,10 +114,14 @@ pub struct RobotStep<'a> {
     pub body: &'a Stance,
     /// Command that it followed.
     pub command: Command,
+    /// Whether its gait is to rest.
+    pub is_to_rest: bool,
     /// Base at its end.
     pub base: BaseMotion,
     /// Feet at its end.
     pub feet: &'a [Foot; FEET],
+    /// Capture point at its end, relative to the middle of the feet, in the heading frame: forward and left (m).
+    pub capture_point_m: Vector2<f64>,
     /// Hinges at its end.
     pub hinges: HingeMotion<'a>,
     /// Time since the episode began (s).
@@ -137,20 +142,19 @@ impl RobotStep<'_> {
         self.feet.iter().enumerate()
     }
 
-    /// Returns what the gait wants of a foot; `None` if the robot is to stop and sees no phase: it steps as it must.
+    /// Returns what the gait wants of a foot; `None` if the robot is to rest but cannot yet: it steps as it must.
     fn stride(&self, foot: usize) -> Option<Stride> {
         if self.must_rest() {
             return Some(Stride { stands: true, lift_m: 0.0 });
         }
-        let hides_phase = self.command.hides_phase(self.config);
-        (!hides_phase).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
+        (!self.is_to_rest).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
-    /// Returns whether the robot must stand still. One that is to stop steps until it is slow and upright: feet that stop at
-    /// once make it fall.
+    /// Returns whether the robot must stand still. One that is to stop steps until it can come to rest without a step: feet
+    /// that stop before that make it tip over them.
     fn must_rest(&self) -> bool {
-        let leans = self.base.gravity.xy().norm();
-        self.command.stands() && self.base.velocity_mps.xy().norm() < SLOW_MPS && leans < UPRIGHT
+        let apart_m = (self.capture_point_m - self.body.capture_point_m).norm();
+        self.command.stands() && apart_m < BALANCED_SHARE * self.body.height_m
     }
 }
 
