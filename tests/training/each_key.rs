@@ -26,8 +26,7 @@ fn another(key: &KeyDoc, value: &Value) -> Option<Value> {
 }
 
 fn array(text: &str) -> Value {
-    let table: toml::Table = format!("list = {text}").parse().unwrap();
-    table["list"].clone()
+    format!("list = {text}").parse::<toml::Table>().unwrap()["list"].clone()
 }
 
 #[test]

@@ -35,9 +35,8 @@ fn training_waits_while_the_disk_is_full_and_loses_nothing() {
     command.arg(format!("mount -t tmpfs -o size=16m none small && exec {train} --run-dir small/run --no-progress"));
     let training = Running::start(command);
     // Only the run sees its disk; others reach it through the run's root.
-    let absolute = folder.path().canonicalize().unwrap();
-    let disk = Path::new("/proc").join(training.pid().to_string()).join("root");
-    let disk = disk.join(absolute.strip_prefix("/").unwrap()).join("small");
+    let small = folder.path().join("small").canonicalize().unwrap();
+    let disk = Path::new("/proc").join(training.pid().to_string()).join("root").join(small.strip_prefix("/").unwrap());
     let run = disk.join("run");
     await_that("the first checkpoint", || run.join("checkpoints/latest.bundle").exists().then_some(()));
 
