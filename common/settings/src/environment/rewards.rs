@@ -68,7 +68,7 @@ rewards! {
     landing = 0.0;
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
     pose = -0.5;
-    /// Squared rates of the hinges (rad²/s²), while the robot is to stand and needs no step for that.
+    /// Squared rates of the hinges (rad²/s²), while the robot is to stand, and is slow and upright.
     stand_still = 0.0;
     /// Squared change of the action from step to step, in units of the action.
     action_rate = -0.01;

@@ -13,6 +13,10 @@ const AIR_TIME_S: f64 = 0.4;
 /// Distance of the capture point from its place in the default pose below which a robot that is commanded to stand puts both
 /// feet down, as a share of the standing height: about half of the way from the middle of the feet to their toes and heels.
 const BALANCED_SHARE: f64 = 0.06;
+/// Horizontal velocity (m/s), and horizontal part of gravity's direction in the frame of the base, below which a robot whose
+/// gait never rests does so.
+const SLOW_MPS: f64 = 0.3;
+const UPRIGHT: f64 = 0.1;
 /// Share of a hinge's range, from its middle, beyond which it is near its limit.
 const SOFT_LIMIT_SHARE: f64 = 0.9;
 /// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
@@ -150,11 +154,13 @@ impl RobotStep<'_> {
         (!self.is_to_rest).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
-    /// Returns whether the robot must stand still. One that is to stop steps until it can come to rest without a step: feet
-    /// that stop before that make it tip over them.
+    /// Returns whether the robot must stand still. One whose gait is to rest steps until it can come to rest without a step:
+    /// feet that stop before that make it tip over them.
     fn must_rest(&self) -> bool {
         let apart_m = (self.capture_point_m - self.body.capture_point_m).norm();
-        self.command.stands() && apart_m < BALANCED_SHARE * self.body.height_m
+        let is_slow = self.base.velocity_mps.xy().norm() < SLOW_MPS && self.base.gravity.xy().norm() < UPRIGHT;
+        let may_rest = if self.config.gait_rests { apart_m < BALANCED_SHARE * self.body.height_m } else { is_slow };
+        self.command.stands() && may_rest
     }
 }
 
