@@ -4,20 +4,17 @@ use crate::physics::Physics;
 
 /// Returns the height above the ground of the lowest point of a link's shapes that can touch it (m); `None` without any.
 pub fn of_link_m(physics: &Physics, link: usize) -> Option<f64> {
-    above_m(physics, link, &|x_m, y_m| physics.ground_height_m(x_m, y_m))
+    above_m(physics, link, |x_m, y_m| physics.ground_height_m(x_m, y_m))
 }
 
-/// Returns the height above the ground of the lowest point of a robot (m); `None` if nothing of it can touch the ground.
-pub fn of_robot_m(physics: &Physics) -> Option<f64> {
-    lowest((0..physics.model().links.len()).filter_map(|link| of_link_m(physics, link)))
+/// Returns the height of the lowest point of a robot above ground of the given height at each place (m); `None` if nothing
+/// of it can touch the ground.
+pub fn of_robot_m(physics: &Physics, ground_m: impl Fn(f64, f64) -> f64 + Copy) -> Option<f64> {
+    let links = 0..physics.model().links.len();
+    links.filter_map(|link| above_m(physics, link, ground_m)).min_by(f64::total_cmp)
 }
 
-/// As [`of_robot_m`], above a level ground at height 0.
-pub fn of_robot_above_zero_m(physics: &Physics) -> Option<f64> {
-    lowest((0..physics.model().links.len()).filter_map(|link| above_m(physics, link, &|_, _| 0.0)))
-}
-
-fn above_m(physics: &Physics, link: usize, ground_m: &dyn Fn(f64, f64) -> f64) -> Option<f64> {
+fn above_m(physics: &Physics, link: usize, ground_m: impl Fn(f64, f64) -> f64) -> Option<f64> {
     let model = physics.model();
     let of = &model.links[link];
     let pose = physics.body_motion(of.body).pose;
@@ -28,9 +25,5 @@ fn above_m(physics: &Physics, link: usize, ground_m: &dyn Fn(f64, f64) -> f64) -
         let centre = pose * geometry.centre_m();
         geometry.lowest_m(&pose) - ground_m(centre.x, centre.y)
     });
-    lowest(heights)
-}
-
-fn lowest(heights: impl Iterator<Item = f64>) -> Option<f64> {
     heights.min_by(f64::total_cmp)
 }

@@ -81,11 +81,9 @@ impl Environment {
         let mut task = tasks.build(config, &physics)?;
         let mut last_observation = vec![0.0; task.terms().last().map_or(0, |term| term.range.end)];
         // The default pose stands on ground at height 0, not on the middle of the generated ground.
-        let nominal_clearance_m = match config.ground.kinds.is_empty() {
-            true => clearance::of_robot_m(&physics),
-            false => clearance::of_robot_above_zero_m(&physics),
-        };
-        let nominal_clearance_m = nominal_clearance_m.filter(|_| task.starts_on_ground());
+        let is_generated = !config.ground.kinds.is_empty();
+        let ground_m = |x_m, y_m| if is_generated { 0.0 } else { physics.ground_height_m(x_m, y_m) };
+        let nominal_clearance_m = clearance::of_robot_m(&physics, ground_m).filter(|_| task.starts_on_ground());
         task.begin(0, &physics);
         task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
         Ok(Self {
@@ -176,7 +174,8 @@ impl Environment {
         // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         if let Some(nominal_m) = self.nominal_clearance_m {
-            let clearance_m = clearance::of_robot_m(&self.physics).unwrap_or(nominal_m);
+            let ground_m = |x_m, y_m| self.physics.ground_height_m(x_m, y_m);
+            let clearance_m = clearance::of_robot_m(&self.physics, ground_m).unwrap_or(nominal_m);
             self.start_position[2] += nominal_m - clearance_m;
             self.physics.set_state(&self.start_position, &self.start_velocity);
         }

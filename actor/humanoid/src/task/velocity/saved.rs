@@ -16,15 +16,9 @@ const SAVED: usize = 5 + 5 * FEET;
 impl VelocityTask {
     /// See [`crate::task::Task::save`].
     pub(super) fn saved_numbers(&self) -> Vec<f64> {
-        let mut numbers = [
-            self.drawn_index,
-            self.drawn_left_steps,
-            self.episode_steps,
-            self.standing.steps,
-            self.standing.undisturbed_steps,
-        ]
-        .map(f64::from)
-        .to_vec();
+        let Standing { steps, undisturbed_steps } = self.standing;
+        let counts = [self.drawn_index, self.drawn_left_steps, self.episode_steps, steps, undisturbed_steps];
+        let mut numbers = counts.map(f64::from).to_vec();
         for foot in &self.feet {
             numbers.push(f64::from(u8::from(foot.stands)));
             numbers.push(foot.air_s);
