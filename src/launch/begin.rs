@@ -58,7 +58,7 @@ fn begin_built_in(
 ) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let file = any.model.as_deref();
-    let mut text = model::completed(&config, file)?;
+    let mut text = model::completed(&config, file, &any.model_file)?;
     let init_from = InitFrom::read(new, any)?;
     if let Some(from) = &init_from {
         text = from.in_its_order(&text, file)?.into();
@@ -121,7 +121,7 @@ fn branch_off(
     let mut state = fork.with_config(&config, new)?;
     if !config.is_external() {
         if let Some(file) = &any.model {
-            model::check_same(&config, &state.model_xml, file)?;
+            model::check_same(&config, &state.model_xml, file, &any.model_file)?;
         }
         let environment = model::environment(launcher.tasks, &config, &state.model_xml, None)?;
         let (size, wanted) = (environment.observation_size(), state.shape().observation);

@@ -12,14 +12,17 @@ use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
 use treadmill_runtime::{error_chain, words::nearest_path};
 
-use crate::launch::exit_code::Usage;
+use crate::{launch::exit_code::Usage, shared::model_file::ModelFileArgs};
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
-    /// MJCF file or card of a robot other than the built-in humanoid; see docs/guide/robots.md.
+    /// MJCF or URDF file, or card, of a robot other than the built-in humanoid; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
+    /// Flags about that file.
+    #[command(flatten)]
+    pub file: ModelFileArgs,
     /// Set a key of [env], [velocity], [rewards], [ground] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -48,8 +51,8 @@ impl ModelArgs {
 }
 
 /// Returns the text of a model file, or by default of the built-in humanoid, with the card that `env.robot` names.
-pub fn completed(config: &Config, file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
-    let text = text(file)?;
+pub fn completed(config: &Config, file: Option<&Path>, files: &ModelFileArgs) -> Result<Cow<'static, str>, Usage> {
+    let text = text(file, files)?;
     match config.env.robot.as_str() {
         "" => Ok(text),
         // The cards that come along are of other robots than the built-in humanoid.
@@ -62,10 +65,13 @@ pub fn completed(config: &Config, file: Option<&Path>) -> Result<Cow<'static, st
 }
 
 /// Returns the text of a model file, or by default of the built-in humanoid.
-pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
+pub fn text(file: Option<&Path>, files: &ModelFileArgs) -> Result<Cow<'static, str>, Usage> {
     match file {
+        None if files.given().is_some() => {
+            Err(Usage(format!("{} has no effect without --model", files.given().unwrap_or_default())))
+        }
         None => Ok(Cow::Borrowed(HUMANOID_XML)),
-        Some(path) => Ok(Cow::Owned(read_model_file(path).map_err(|why| {
+        Some(path) => Ok(Cow::Owned(read_model_file(path, &files.files()).map_err(|why| {
             let near = (!path.exists()).then(|| nearest_path(path)).flatten();
             let hint = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
             Usage(in_file(Some(path), &why).0 + &hint)
@@ -142,8 +148,8 @@ pub fn networks(config: &Config, environment: &Environment) -> Result<Networks, 
 }
 
 /// Checks that `file` is the model of the resumed run.
-pub fn check_same(config: &Config, run_text: &str, file: &Path) -> Result<(), Usage> {
-    if completed(config, Some(file))? == run_text {
+pub fn check_same(config: &Config, run_text: &str, file: &Path, files: &ModelFileArgs) -> Result<(), Usage> {
+    if completed(config, Some(file), files)? == run_text {
         return Ok(());
     }
     Err(Usage(format!(

@@ -71,7 +71,7 @@ pub fn go_on(
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
     }
     if let Some(file) = &any.model {
-        model::check_same(&config, &state.model_xml, file)?;
+        model::check_same(&config, &state.model_xml, file, &any.model_file)?;
     }
     let (reached, saved) = (state.counters.env_steps, config.run.steps);
     let goal = match any.steps {

@@ -9,7 +9,10 @@ use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::device::DeviceKind;
 use treadmill_runtime::{numbers::parse_count, words::nearest};
 
-use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
+use crate::{
+    launch::exit_code::Usage,
+    shared::{existing_file::existing_file, model_file::ModelFileArgs},
+};
 
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
@@ -126,10 +129,13 @@ pub struct AnyRunArgs {
     /// az://CONTAINER/PATH. Credentials come from the environment (see docs/operations/failover.md).
     #[arg(long, value_name = "URL", conflicts_with_all = ["resume", "fork", "init_from"])]
     pub store: Option<String>,
-    /// MJCF file or card of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps
-    /// its own.
+    /// MJCF or URDF file, or card, of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run
+    /// keeps its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
+    /// Flags about that file.
+    #[command(flatten)]
+    pub model_file: ModelFileArgs,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "saved")]
     pub checkpoint: Option<CheckpointChoice>,

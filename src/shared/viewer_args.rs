@@ -8,7 +8,7 @@ use std::{
 use clap::Args;
 use treadmill_learner::checkpoint::CheckpointChoice;
 
-use crate::shared::learner_address::ReachArgs;
+use crate::shared::{learner_address::ReachArgs, model_file::ModelFileArgs};
 
 /// Flags of `watch`.
 #[derive(Args, Clone, Debug)]
@@ -37,9 +37,12 @@ pub struct ViewerArgs {
     /// Play in real time at this speed factor; by default all motion is sent at once.
     #[arg(long, value_name = "TIMES", value_parser = positive, conflicts_with = "live")]
     pub speed: Option<f64>,
-    /// MJCF file or card of the robot on this machine, whose visual meshes are shown instead of the colliding shapes.
+    /// MJCF or URDF file, or card, of the robot on this machine, whose visual meshes are shown instead of the colliding shapes.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
+    /// Flags about that file.
+    #[command(flatten)]
+    pub model_file: ModelFileArgs,
     /// Steer the robot by keys while it moves, in real time; for policies that follow commands.
     #[arg(long, conflicts_with_all = ["live", "episodes"])]
     pub steer: bool,

@@ -8,6 +8,7 @@ Poses are those of all hinges at zero. Prints the greatest difference of each qu
 import json
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 
 import mujoco
 import numpy as np
@@ -17,10 +18,34 @@ LIMIT = 1e-6
 
 def load(file: str) -> mujoco.MjModel:
     """Loads a file; a file without a floor, which its pairs may name, gets one."""
-    spec = mujoco.MjSpec.from_file(file)
+    spec = urdf(file) if file.endswith(".urdf") else mujoco.MjSpec.from_file(file)
     if not any(geom.type in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD) for geom in spec.worldbody.geoms):
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
     return spec.compile()
+
+
+def urdf(file: str) -> mujoco.MjSpec:
+    """Loads a URDF as a robot that moves freely. Shapes are left out, since its folders of meshes have no one name."""
+    robot = ElementTree.parse(file).getroot()
+    for link in robot.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            link.remove(shape)
+    for joint in list(robot.iter("joint")):
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            # Treadmill holds it still.
+            joint.set("type", "fixed")
+    for element in list(robot):
+        if element.tag not in ("link", "joint"):
+            robot.remove(element)
+    # A link without mass of its own moves none; MuJoCo would fuse it with the next one.
+    extension = ElementTree.SubElement(robot, "mujoco")
+    ElementTree.SubElement(extension, "compiler", fusestatic="false")
+    spec = mujoco.MjSpec.from_string(ElementTree.tostring(robot, encoding="unicode"))
+    root = spec.worldbody.first_body()
+    if not root.joints:
+        root.add_freejoint()
+    return spec
 
 
 def differences(binary: str, file: str) -> dict[str, float]:

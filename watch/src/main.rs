@@ -103,7 +103,12 @@ fn set_up(
 ) -> anyhow::Result<(ViewerOutput, SceneRecorder)> {
     let output = ViewerOutput::open(&view.output, name, view.reach.network.insecure)?;
     layout::send(output.recording(), !view.no_follow, mode, &shown)?;
-    let visuals = view.model.as_deref().map(visual_meshes).transpose()?.unwrap_or_default();
+    let visuals = view
+        .model
+        .as_deref()
+        .map(|file| visual_meshes(file, &view.model_file.files()))
+        .transpose()?
+        .unwrap_or_default();
     let recorder = SceneRecorder::new(output.recording().clone(), shown.model, visuals);
     recorder.set_up()?;
     Ok((output, recorder))

@@ -18,7 +18,7 @@ use std::{
 };
 
 use serde::{Deserialize, Serialize};
-use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, read_model_file};
+use treadmill_humanoid::{HUMANOID_XML, Model, ModelFiles, Physics, PhysicsSettings, read_model_file};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn simulate(case: &Case) -> Result<Vec<State>, Box<dyn Error>> {
     let xml = match &case.model_file {
-        Some(path) => read_model_file(Path::new(path))?,
+        Some(path) => read_model_file(Path::new(path), &ModelFiles::default())?,
         None => HUMANOID_XML.to_string(),
     };
     let mut physics = Physics::new(Model::from_mjcf(&xml)?, case.config.settings())?;

@@ -57,7 +57,7 @@ pub use environment::{Environment, EpisodeState, VectorEnvironment};
 pub use error::{InputError, ModelError, StateError};
 pub use home::HomePose;
 pub use info::{InfoValue, StepInfo};
-pub use mjcf::{HUMANOID_XML, read_model_file};
+pub use mjcf::{HUMANOID_XML, ModelFiles, read_model_file};
 pub use model::{Model, mirror::Mirror};
 pub use observation::Observation;
 pub use physics::{ContactForce, Physics, PhysicsFault, Variation};

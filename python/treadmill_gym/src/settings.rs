@@ -7,7 +7,7 @@ use pyo3::{
     prelude::*,
     types::{PyBool, PyDict},
 };
-use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
+use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, ModelFiles, read_model_file};
 use treadmill_settings::{ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, KeyDoc, Section};
 
 /// Keys of `[env]` that are no keywords: Gymnasium counts the steps of an episode, and has no tasks and cards of ours.
@@ -58,7 +58,9 @@ impl EnvironmentSettings {
         let config = EnvironmentConfig::from(env);
         config.check().map_err(|why| refused_setting(&why))?;
         let model_xml = match &file {
-            Some(path) => read_model_file(Path::new(path)).map_err(|why| refusal(&why, Some(path)))?,
+            Some(path) => {
+                read_model_file(Path::new(path), &ModelFiles::default()).map_err(|why| refusal(&why, Some(path)))?
+            }
             None => HUMANOID_XML.to_owned(),
         };
         Ok(Self { config, max_episode_steps, model_xml, file })

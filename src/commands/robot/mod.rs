@@ -9,13 +9,13 @@ use std::{
 
 use clap::Args;
 use treadmill_config::Config;
-use treadmill_humanoid::{EnvTask, EnvironmentConfig, HomePose, Model, Physics, TaskRegistry, card};
+use treadmill_humanoid::{EnvTask, EnvironmentConfig, HomePose, Model, Physics, TaskRegistry, card, mjcf};
 use treadmill_render::{Camera, Picture, Scene, film};
 use treadmill_runtime::atomic_file;
 
 use crate::{
     launch::{exit_code::Usage, model, output::say},
-    shared::existing_file::existing_file,
+    shared::{existing_file::existing_file, model_file::ModelFileArgs},
 };
 
 /// Width and height of the picture, in pixels.
@@ -26,9 +26,12 @@ const CAMERA_M: [f64; 3] = [2.2, -1.6, 0.6];
 /// Flags of `robot`.
 #[derive(Args)]
 pub struct RobotArgs {
-    /// Robot card (TOML) or MJCF file.
+    /// Robot card (TOML), MJCF or URDF file.
     #[arg(value_parser = existing_file)]
     file: PathBuf,
+    /// Flags about that file.
+    #[command(flatten)]
+    files: ModelFileArgs,
     /// Complete the model by a built-in card: g1, g1-29, h1 or t1.
     #[arg(long, value_name = "NAME")]
     card: Option<String>,
@@ -40,11 +43,11 @@ pub struct RobotArgs {
     json: bool,
 }
 
-/// Prints the report; for an MJCF file as comments of the card that it drafts.
+/// Prints the report; for an MJCF or URDF file as comments of the card that it drafts.
 pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     let mut config = Config::default();
     config.env.robot = args.card.clone().unwrap_or_default();
-    let text = model::completed(&config, Some(&args.file))?;
+    let text = model::completed(&config, Some(&args.file), &args.files)?;
     let robot = Model::without_motors(&text).map_err(|why| model::in_file(Some(&args.file), &why))?;
     let is_card = robot.robot.is_some();
     let config = config.environment();
@@ -63,11 +66,13 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     }
     // Numbers of links and hinges are those with all hinges at zero.
     physics.set_state(&robot.nominal_position(), &vec![0.0; robot.velocity_size()]);
+    // Nothing but a viewer needs them.
+    let meshes = mjcf::visual_meshes(&args.file, &args.files.files()).map_or(0, |meshes| meshes.len());
     if args.json {
-        say(&report::json(&physics, &text, &args.file, home.as_ref()).to_string());
+        say(&report::json(&physics, &text, meshes, home.as_ref()).to_string());
         return Ok(());
     }
-    let lines = report::lines(&robot, &text, &args.file, home.as_ref());
+    let lines = report::lines(&robot, &text, &args.file, meshes, home.as_ref());
     if is_card {
         say(lines.trim_end());
         return Ok(());

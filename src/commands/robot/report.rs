@@ -5,12 +5,11 @@ use std::{collections::BTreeMap, fmt::Write, path::Path};
 use serde_json::{Value, json};
 use treadmill_humanoid::{
     HomePose, Mirror, Model, Physics,
-    mjcf::visual_meshes,
     model::{Geometry, Hinge, HingeControl, Motor},
 };
 
-/// Returns the report of a model that was read from `file`.
-pub fn lines(model: &Model, text: &str, file: &Path, home: Option<&HomePose>) -> String {
+/// Returns the report of a model that was read from `file`, which has so many visual meshes.
+pub fn lines(model: &Model, text: &str, file: &Path, meshes: usize, home: Option<&HomePose>) -> String {
     let mut lines = String::new();
     let mut line = |name: &str, what: String| {
         let _ = writeln!(lines, "{name:<10} {what}");
@@ -61,7 +60,6 @@ pub fn lines(model: &Model, text: &str, file: &Path, home: Option<&HomePose>) ->
     }
     let mut ignored: Vec<String> =
         Model::ignored_elements(text).into_iter().map(|(tag, count)| format!("{count} <{tag}>")).collect();
-    let meshes = visual_mesh_count(file);
     if meshes > 0 {
         ignored.push(format!("{meshes} visual meshes, which `watch --model` shows"));
     }
@@ -75,11 +73,6 @@ pub fn lines(model: &Model, text: &str, file: &Path, home: Option<&HomePose>) ->
 fn joined<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
-/// Counts the visual meshes of a model file; 0 if their files cannot be read, because nothing but a viewer needs them.
-fn visual_mesh_count(file: &Path) -> usize {
-    visual_meshes(file).map_or(0, |meshes| meshes.len())
 }
 
 /// Counts colliding shapes by kind.
@@ -182,7 +175,7 @@ impl HingeFacts {
 }
 
 /// Returns the report as JSON; poses are those of all hinges at zero, in the world.
-pub fn json(physics: &Physics, text: &str, file: &Path, home: Option<&HomePose>) -> Value {
+pub fn json(physics: &Physics, text: &str, meshes: usize, home: Option<&HomePose>) -> Value {
     let model = physics.model();
     let links: Vec<Value> = model
         .links
@@ -241,6 +234,6 @@ pub fn json(physics: &Physics, text: &str, file: &Path, home: Option<&HomePose>)
         "links": links,
         "simplified": model.simplifications,
         "ignored": Model::ignored_elements(text),
-        "visual_meshes": visual_mesh_count(file),
+        "visual_meshes": meshes,
     })
 }

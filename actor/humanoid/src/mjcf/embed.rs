@@ -14,9 +14,13 @@ use super::card_text::with_card;
 use super::defaults::Classes;
 use super::element::{Attribute, Element};
 use super::files::{self, AssetFiles};
+use super::urdf::{self, ModelFiles};
 use super::xml::{self, elements, sections};
+use crate::clearance;
+use crate::config::PhysicsSettings;
 use crate::error::ModelError;
-use crate::model::{HEIGHT_FIELD_SIDE_MAX, hull};
+use crate::model::{HEIGHT_FIELD_SIDE_MAX, Model, hull};
+use crate::physics::Physics;
 
 /// Reads a model file and replaces each `<include>` by the content of its file.
 ///
@@ -24,21 +28,35 @@ use crate::model::{HEIGHT_FIELD_SIDE_MAX, hull};
 /// other files that the model names, those that motion depends on are written into the text: hulls of meshes, and
 /// height fields.
 ///
-/// A robot card, a file that ends in `.toml`, gives the text of its model with the card in it.
+/// A URDF becomes MJCF, with the robot on the ground. A robot card, a file that ends in `.toml`, gives the text of its model
+/// with the card in it.
 ///
 /// # Errors
-/// [`ModelError`] names the file that is missing or too long, or the text that is not XML.
-pub fn read_model_file(path: &Path) -> Result<String, ModelError> {
-    let model = files::mjcf_of(path)?;
+/// [`ModelError`] names the file that is missing or too long, or the text that is not XML, or what in a URDF cannot be
+/// simulated.
+pub fn read_model_file(path: &Path, files: &ModelFiles) -> Result<String, ModelError> {
+    let model = files::model_of(path)?;
+    let folder = files::folder_of(&model);
     let text = files::text_with_includes(&model)?;
     let document = xml::parse(&text)?;
-    let embedded = match document.descendants().any(|node| node.has_attribute("file")) {
-        true => embed(&document, files::folder_of(&model))?,
-        false => text,
+    let embedded = if urdf::is_urdf(&document) {
+        let text = urdf::to_mjcf(&document, &model, files)?;
+        on_ground(&embed(&xml::parse(&text)?, folder)?)?
+    } else if document.descendants().any(|node| node.has_attribute("file")) {
+        embed(&document, folder)?
+    } else {
+        text
     };
     let whole = if files::is_card(path) { with_card(&embedded, &files::read_text(path)?)? } else { embedded };
     files::check_length(whole.len() as u64)?;
     Ok(whole)
+}
+
+/// Returns the text of a robot at height 0 with its lowest shape on the ground; a URDF has no height.
+fn on_ground(text: &str) -> Result<String, ModelError> {
+    let physics = Physics::new(Model::without_motors(text)?, PhysicsSettings::default())?;
+    let lowest_m = clearance::of_robot_m(&physics, |_, _| 0.0);
+    Ok(lowest_m.map_or_else(|| text.to_owned(), |lowest_m| urdf::raised(text, -lowest_m)))
 }
 
 /// Returns the text with the numbers of all files that motion depends on; `folder` is that of the outermost model file.
@@ -118,7 +136,7 @@ fn mesh(asset: &Element, path: &Path, is_mass: bool) -> Result<Vec<Attribute>, M
     let label = format!("mesh `{}`", asset.label);
     if !files::is_mesh(path) {
         let problem =
-            format!("`{}` is neither STL nor OBJ; convert it, or collide with primitive shapes", path.display());
+            format!("`{}` is neither STL, OBJ nor DAE; convert it, or collide with primitive shapes", path.display());
         return Err(ModelError::unsupported(&label, problem));
     }
     let scene = files::read_mesh(&asset.label, path)?;

@@ -15,6 +15,8 @@ use crate::error::ModelError;
 
 /// Largest file of a mesh or of heights.
 const FILE_BYTES_MAX: u64 = 64 << 20;
+/// Bytes before the number of triangles in a binary STL file.
+const STL_HEADER: usize = 80;
 
 /// Returns whether a file has one of these extensions, in any case.
 pub(super) fn has_extension(path: &Path, allowed: &[&str]) -> bool {
@@ -26,8 +28,8 @@ pub(super) fn is_card(path: &Path) -> bool {
     has_extension(path, &["toml"])
 }
 
-/// Returns the MJCF file that a robot card names, or that `path` is.
-pub(super) fn mjcf_of(path: &Path) -> Result<PathBuf, ModelError> {
+/// Returns the model file that a robot card names, or that `path` is.
+pub(super) fn model_of(path: &Path) -> Result<PathBuf, ModelError> {
     if !is_card(path) {
         return Ok(path.to_path_buf());
     }
@@ -37,7 +39,7 @@ pub(super) fn mjcf_of(path: &Path) -> Result<PathBuf, ModelError> {
     }
     let model = folder_of(path).join(name);
     match is_card(&model) {
-        true => Err(ModelError::Card(format!("`model` is `{}`, but must be an MJCF file", model.display()))),
+        true => Err(ModelError::Card(format!("`model` is `{}`, but must be an MJCF or URDF file", model.display()))),
         false => Ok(model),
     }
 }
@@ -140,15 +142,25 @@ impl<'a> AssetFiles<'a> {
 
 /// Returns whether a mesh file has a format that is read.
 pub(super) fn is_mesh(path: &Path) -> bool {
-    has_extension(path, &["stl", "obj"])
+    has_extension(path, &["stl", "obj", "dae"])
 }
 
-/// Reads an STL or OBJ file.
+/// Reads an STL, OBJ or DAE file.
 pub(super) fn read_mesh(name: &str, path: &Path) -> Result<Scene, ModelError> {
-    let bytes = read_bytes(path)?;
+    let mut bytes = read_bytes(path)?;
+    if has_extension(path, &["stl"]) && is_binary_stl(&bytes) {
+        // The loader takes a header that begins like a text for one.
+        bytes[..STL_HEADER].fill(0);
+    }
     Loader::default().load_from_slice(&bytes, path).map_err(|why| {
         ModelError::unsupported(&format!("mesh `{name}`"), format!("`{}` cannot be read: {why}", path.display()))
     })
+}
+
+/// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(STL_HEADER..).and_then(|rest| rest.first_chunk::<4>()).copied().map(u32::from_le_bytes);
+    count.is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + 4 + 50 * u64::from(count))
 }
 
 /// Reads a text file of at most [`MODEL_BYTES_MAX`] bytes.

@@ -1,4 +1,4 @@
-//! MJCF text → [`Model`].
+//! MJCF text → [`Model`], and URDF → MJCF text.
 //!
 //! A text is all that another machine needs: [`read_model_file`] writes included files, hulls of meshes and height
 //! fields into it. docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on
@@ -10,6 +10,7 @@
 //! - `reader`: tree → model, with a file for each part: `geoms`, `floor`, `joints`, `mass`, `pairs`, `tendons`, `motors`,
 //!   `keyframes`, and `assets`.
 //! - `files`, `embed`, `visual`: files that a model names.
+//! - `urdf`: URDF → MJCF text.
 //! - `card_text`: a robot card within a text.
 
 mod assets;
@@ -30,6 +31,7 @@ mod pose;
 mod reader;
 mod tendons;
 mod tree;
+mod urdf;
 mod visual;
 mod vocabulary;
 mod xml;
@@ -39,6 +41,7 @@ use std::collections::BTreeMap;
 pub use self::card_text::with_built_in;
 pub use self::embed::read_model_file;
 pub use self::order::in_order_of;
+pub use self::urdf::ModelFiles;
 pub use self::visual::{VisualMesh, visual_meshes};
 pub use self::xml::MODEL_BYTES_MAX;
 use crate::error::ModelError;

@@ -9,7 +9,7 @@ use super::element::Element;
 use super::floor::Floor;
 use super::pairs::{self, ContactRules, Exclusion, Party};
 use super::tree::{self, BodyNode, Tree};
-use super::{geoms, joints, keyframes, mass, motors, tendons, xml};
+use super::{geoms, joints, keyframes, mass, motors, tendons, urdf, xml};
 use crate::error::ModelError;
 use crate::model::inertia::{self, MassProperties};
 use crate::model::{Body, Geometry, Hinge, Link, Model, RootJoint, Shape};
@@ -32,6 +32,7 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     let tree = tree::read(&document)?;
     check_size(&tree.bodies)?;
     let mut reader = Reader::new(&tree);
+    reader.simplifications = urdf::notices(&document);
     for (index, body) in tree.bodies.iter().enumerate() {
         reader.read_body(index, body)?;
     }

@@ -10,6 +10,7 @@ use super::card_text;
 use super::defaults::{ACTUATORS, Classes};
 use super::element::Element;
 use super::pose::{Angles, Pose};
+use super::urdf;
 use super::vocabulary::{self, is_inert};
 use super::xml::{elements, sections};
 use crate::card::RobotCard;
@@ -139,11 +140,13 @@ pub(super) fn ignored(root: Node<'_, '_>) -> BTreeMap<String, usize> {
     fn count(node: Node<'_, '_>, found: &mut BTreeMap<String, usize>) {
         for child in elements(node) {
             let tag = child.tag_name().name();
-            let is_card = tag == "custom" && child.children().any(|text| card_text::is_card(&text));
             match is_inert(tag) {
-                true if is_card => {}
                 true if matches!(tag, "sensor" | "custom") => {
-                    *found.entry(tag.to_owned()).or_default() += elements(child).count();
+                    let within = elements(child).filter(|text| !card_text::is_card(text) && !urdf::is_notice(text));
+                    let count = within.count();
+                    if count > 0 {
+                        *found.entry(tag.to_owned()).or_default() += count;
+                    }
                 }
                 true => *found.entry(tag.to_owned()).or_default() += 1,
                 false if tag == "default" => {}

@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::files::{self, AssetFiles};
+use super::urdf::{self, ModelFiles};
 use super::xml::{self, elements, sections};
 use crate::error::ModelError;
 
@@ -28,14 +29,18 @@ pub struct VisualMesh {
     pub colour: [f64; 4],
 }
 
-/// Reads the visual meshes of an MJCF file or a robot card. Meshes that are turned by other attributes than `quat`, or
-/// whose file has another format than STL and OBJ, are left out.
+/// Reads the visual meshes of an MJCF or URDF file, or of a robot card. Meshes that are turned by other attributes than
+/// `quat`, or whose file has another format than STL, OBJ and DAE, are left out.
 ///
 /// # Errors
 /// [`ModelError`] names the file that is missing or unreadable.
-pub fn visual_meshes(path: &Path) -> Result<Vec<VisualMesh>, ModelError> {
-    let path = files::mjcf_of(path)?;
-    let text = files::text_with_includes(&path)?;
+pub fn visual_meshes(path: &Path, files: &ModelFiles) -> Result<Vec<VisualMesh>, ModelError> {
+    let path = files::model_of(path)?;
+    let mut text = files::text_with_includes(&path)?;
+    let document = xml::parse(&text)?;
+    if urdf::is_urdf(&document) {
+        text = urdf::to_mjcf(&document, &path, files)?;
+    }
     let document = xml::parse(&text)?;
     let files = AssetFiles::of(&document, files::folder_of(&path))?;
     let mut found = Vec::new();

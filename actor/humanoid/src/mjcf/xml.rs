@@ -48,6 +48,12 @@ pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item =
 
 /// Writes an element without content.
 pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
+    open(text, tag, attributes);
+    let _ = writeln!(text, "</{tag}>");
+}
+
+/// Writes the beginning of an element.
+pub(super) fn open(text: &mut String, tag: &str, attributes: &[Attribute]) {
     let _ = write!(text, "<{tag}");
     for (name, value) in attributes {
         let _ = write!(text, " {name}=\"");
@@ -64,7 +70,7 @@ pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
         }
         text.push('"');
     }
-    let _ = writeln!(text, "></{tag}>");
+    text.push('>');
 }
 
 /// Returns the nesting depth of elements; meaningless for a text that is not well-formed.

@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Matrix3, Point3, Vector3};
+use robust::{Coord3D, orient3d};
 
-/// Distance of a vertex from a face, relative to the extent of all vertices, up to which it lies in the face.
-const COPLANAR: f64 = 1e-9;
 /// Least thickness of a hull relative to its extent.
 const FLAT: f64 = 1e-6;
 /// Least squared sine of the angles between the faces at a corner.
@@ -31,6 +30,15 @@ impl Face {
         Self { corners, normal, offset: normal.dot(&a.coords) }
     }
 
+    /// Returns whether a point is in front of the face, without rounding: files round what should lie in a plane to 32 bits,
+    /// and a hull stays closed only if each such point is on the same side of a plane whenever it is asked.
+    /// (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates".)
+    fn is_seen_from(&self, points: &[Point3<f64>], point: &Point3<f64>) -> bool {
+        let [a, b, c, d] = [points[self.corners[0]], points[self.corners[1]], points[self.corners[2]], *point]
+            .map(|point| Coord3D { x: point.x, y: point.y, z: point.z });
+        orient3d(a, b, c, d) < 0.0
+    }
+
     /// Returns the distance of a point in front of the face.
     fn distance(&self, point: &Point3<f64>) -> f64 {
         self.normal.dot(&point.coords) - self.offset
@@ -39,16 +47,14 @@ impl Face {
 
 /// Returns the faces of the convex hull as indices of vertices, counter-clockwise from outside; `None` if it is flat.
 pub(crate) fn faces(points: &[Point3<f64>]) -> Option<Vec<[usize; 3]>> {
-    let extent = extent(points);
-    let first = first_tetrahedron(points, extent * FLAT)?;
+    let first = first_tetrahedron(points, extent(points) * FLAT)?;
     let [a, b, c, d] = first;
     let mut faces: Vec<Face> =
         [[a, b, c], [a, d, b], [b, d, c], [c, d, a]].into_iter().map(|corners| Face::new(points, corners)).collect();
-    let nearest = extent * COPLANAR;
     for (index, point) in points.iter().enumerate().filter(|(index, _)| !first.contains(index)) {
         let mut edges = BTreeSet::new();
         faces.retain(|face| {
-            let is_hidden = face.distance(point) <= nearest;
+            let is_hidden = !face.is_seen_from(points, point);
             if !is_hidden {
                 let [a, b, c] = face.corners;
                 edges.extend([(a, b), (b, c), (c, a)]);
@@ -59,14 +65,7 @@ pub(crate) fn faces(points: &[Point3<f64>]) -> Option<Vec<[usize; 3]>> {
         let outline = edges.iter().filter(|(from, to)| !edges.contains(&(*to, *from)));
         faces.extend(outline.map(|(from, to)| Face::new(points, [*from, *to, index])));
     }
-    let corners: BTreeSet<usize> = faces.iter().flat_map(|face| face.corners).collect();
-    // Rounding can only spoil hulls of nearly coincident vertices; Euler's formula and distances detect it.
-    let is_closed = faces.len() + 4 == 2 * corners.len();
-    let contains_all = || {
-        faces.iter().all(|face| face.normal != Vector3::zeros())
-            && points.iter().all(|point| faces.iter().all(|face| face.distance(point) <= extent * FLAT))
-    };
-    (is_closed && contains_all()).then(|| faces.into_iter().map(|face| face.corners).collect())
+    Some(faces.into_iter().map(|face| face.corners).collect())
 }
 
 /// Returns the corners of the convex hull, in their order; `None` if it is flat.
@@ -86,7 +85,6 @@ pub(crate) fn vertices(points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
 /// Returns corners of the convex hull, such that all points are within [`SIMPLE`] of the hull of these corners, but at most
 /// [`CORNERS_MAX`]; `None` if it is flat. Each corner is the farthest outside of the hull of those before.
 ///
-/// Unlike [`vertices`] it may be used for points that lie in a plane only up to rounding.
 pub(crate) fn simplified(points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
     let near = extent(points) * SIMPLE;
     let mut corners: Vec<Point3<f64>> = first_tetrahedron(points, near)?.map(|index| points[index]).into();

@@ -1,7 +1,7 @@
 //! Robot cards: what they change in a model, drafts, and mistakes.
 
 use treadmill_humanoid::card::{RobotCard, draft};
-use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Mirror, Model};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Mirror, Model, ModelFiles};
 
 use crate::support::changed;
 
@@ -98,7 +98,7 @@ fn read(card: &str) -> Result<String, String> {
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("legs.xml"), LEGS).expect("a file");
     std::fs::write(folder.join("card.toml"), card).expect("a file");
-    let text = treadmill_humanoid::read_model_file(&folder.join("card.toml"));
+    let text = treadmill_humanoid::read_model_file(&folder.join("card.toml"), &ModelFiles::default());
     std::fs::remove_dir_all(&folder).expect("it exists");
     text.map_err(|why| why.to_string())
 }

@@ -1,36 +1,11 @@
 //! Model files with what they include and name: other texts, meshes and height fields.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use treadmill_humanoid::model::Geometry;
-use treadmill_humanoid::{HUMANOID_XML, Model, read_model_file};
+use treadmill_humanoid::{HUMANOID_XML, Model};
 
-/// Temporary folder of one test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("treadmill-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        Self(folder)
-    }
-
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
-        let path = self.0.join(name);
-        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        std::fs::write(path, bytes).expect("a file");
-    }
-
-    fn read(&self, name: &str) -> Result<String, String> {
-        read_model_file(&self.0.join(name)).map_err(|error| error.to_string())
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
+use crate::support::Folder;
 
 #[test]
 fn included_files_are_inserted() {

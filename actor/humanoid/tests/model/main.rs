@@ -7,4 +7,5 @@ mod files;
 mod joints;
 mod refusals;
 mod support;
+mod urdf;
 mod values;
