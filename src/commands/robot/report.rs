@@ -218,6 +218,7 @@ pub fn json(physics: &Physics, text: &str, meshes: usize, home: Option<&HomePose
     json!({
         "mass_kg": model.mass_kg(),
         "root": model.links[0].name,
+        "height_m": model.nominal_position()[2],
         "bodies": model.bodies.len(),
         "motors": model.motors.iter().map(|motor| motor.name.as_str()).collect::<Vec<_>>(),
         "shapes": model.bodies.iter().map(|body| body.shapes.len()).sum::<usize>(),

@@ -1,6 +1,6 @@
 //! Default classes, merged into the attributes of each element as in MuJoCo.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
@@ -13,16 +13,25 @@ use crate::error::ModelError;
 const MAIN: &str = "main";
 /// Tags of supported actuators.
 pub(super) const ACTUATORS: [&str; 4] = ["motor", "position", "velocity", "general"];
+/// Key of the defaults of all actuators.
+const ACTUATOR: &str = "actuator";
 
-/// Defaults of one class, including those of its parents: attributes by tag.
-type Class = BTreeMap<String, Vec<Attribute>>;
+/// Defaults of one class, including those of its parents: attributes by tag. Actuators of all kinds share those of
+/// [`ACTUATOR`].
+type Class = BTreeMap<String, Defaults>;
+
+/// Attributes of a class for one tag.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Defaults {
+    /// Tag that they were given for last.
+    tag: String,
+    attributes: Vec<Attribute>,
+}
 
 /// All classes of a model.
 #[derive(Debug, Default)]
 pub(super) struct Classes {
     classes: BTreeMap<String, Class>,
-    /// Actuator tags that have defaults.
-    pub(super) actuators: BTreeSet<String>,
 }
 
 impl Classes {
@@ -76,11 +85,9 @@ impl Classes {
                     vocabulary::allowed(rule, value).map_err(|expected| element.wrong(attribute, expected))?;
                 }
             }
-            if ACTUATORS.contains(&tag) {
-                self.actuators.insert(tag.to_owned());
-            }
-            let before = class.remove(tag).unwrap_or_default();
-            class.insert(tag.to_owned(), merge(tag, before, element.attributes));
+            let before = class.remove(key(tag)).unwrap_or_default().attributes_for(tag);
+            let attributes = merge(tag, before, element.attributes);
+            class.insert(key(tag).to_owned(), Defaults { tag: tag.to_owned(), attributes });
         }
         for child in nested {
             let name = child
@@ -104,8 +111,8 @@ impl Classes {
     ) -> Result<Element, ModelError> {
         let mut element = Element::of(node, label);
         let name = node.attribute("class").or(ambient).unwrap_or(MAIN);
-        if let Some(under) = self.class(name, &element.label)?.and_then(|class| class.get(&element.tag)) {
-            element.attributes = merge(&element.tag, under.clone(), element.attributes);
+        if let Some(under) = self.class(name, &element.label)?.and_then(|class| class.get(key(&element.tag))) {
+            element.attributes = merge(&element.tag, under.attributes_for(&element.tag), element.attributes);
         }
         Ok(element)
     }
@@ -121,8 +128,60 @@ impl Classes {
     }
 }
 
+/// Returns the key of a tag's defaults.
+fn key(tag: &str) -> &str {
+    if ACTUATORS.contains(&tag) { ACTUATOR } else { tag }
+}
+
+impl Defaults {
+    /// Returns the attributes as they hold for a tag. As in MuJoCo, an actuator of another kind takes ranges and gear, but not
+    /// the gains, unless one of the two is `general`.
+    fn attributes_for(&self, tag: &str) -> Vec<Attribute> {
+        if self.tag == tag || self.tag.is_empty() {
+            return self.attributes.clone();
+        }
+        let is_common = |(name, _): &&Attribute| ACTUATORS.iter().all(|kind| vocabulary::rule(kind, name).is_some());
+        let mut found: Vec<Attribute> = self.attributes.iter().filter(is_common).cloned().collect();
+        let under = Element { tag: self.tag.clone(), label: String::new(), attributes: self.attributes.clone() };
+        let gain = |name: &str| under.number(name);
+        let bias = under.list("biasprm").and_then(|all| all.get(2).copied());
+        let of_general = [gain("gainprm"), bias.filter(|damping| *damping <= 0.0), bias.filter(|ratio| *ratio > 0.0)];
+        let gains: Vec<(&str, Option<String>)> = match (self.tag.as_str(), tag) {
+            ("position", "general") => {
+                let stiffness = gain("kp").unwrap_or(1.0);
+                let damping = gain("dampratio").unwrap_or(-gain("kv").unwrap_or(0.0));
+                affine(stiffness, &format!("0 {} {damping}", -stiffness))
+            }
+            ("velocity", "general") => {
+                let damping = gain("kv").unwrap_or(1.0);
+                affine(damping, &format!("0 0 {}", -damping))
+            }
+            ("general", "position") => {
+                let names = [("kp", 1.0), ("kv", -1.0), ("dampratio", 1.0)].into_iter().zip(of_general);
+                names.map(|((name, sign), value)| (name, value.map(|value| (sign * value).to_string()))).collect()
+            }
+            ("general", "velocity") => vec![("kv", gain("gainprm").map(|gain| gain.to_string()))],
+            _ => Vec::new(),
+        };
+        found.extend(gains.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))));
+        found
+    }
+}
+
+/// Returns the attributes of a general actuator with these gains.
+fn affine(gain: f64, bias: &str) -> Vec<(&'static str, Option<String>)> {
+    [("gainprm", gain.to_string()), ("biastype", "affine".to_owned()), ("biasprm", bias.to_owned())]
+        .map(|(name, value)| (name, Some(value)))
+        .into()
+}
+
 /// Attributes of servos that set the same quantity.
 pub(super) const REPLACED: [[&str; 2]; 2] = [["kv", "dampratio"], ["ctrlrange", "inheritrange"]];
+
+/// Returns whether an attribute is an `inheritrange` of 0, under which a control range stays.
+pub(super) fn inherits_nothing(name: &str, value: &str) -> bool {
+    name == "inheritrange" && value.trim().parse() == Ok(0.0)
+}
 
 fn opposite<'a>([one, other]: &[&'a str; 2], name: &str) -> Option<&'a str> {
     if name == *one { Some(*other) } else { (name == *other).then_some(*one) }
@@ -131,7 +190,8 @@ fn opposite<'a>([one, other]: &[&'a str; 2], name: &str) -> Option<&'a str> {
 /// Merges `over` into `under`. A list that may be shorter keeps the remaining numbers of the one under it.
 fn merge(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
     // Of two settings of one quantity, the one nearest to the element counts.
-    for replaced in over.iter().flat_map(|(name, _)| REPLACED.iter().filter_map(move |pair| opposite(pair, name))) {
+    let sets = over.iter().filter(|(name, value)| !inherits_nothing(name, value)).map(|(name, _)| name);
+    for replaced in sets.flat_map(|name| REPLACED.iter().filter_map(move |pair| opposite(pair, name))) {
         under.retain(|(found, _)| found != replaced);
     }
     for (name, mut value) in over {

@@ -79,6 +79,8 @@ impl Element {
         match self.list(name).as_deref() {
             None if is_limited => Err(self.refused(format!("it is limited, but has no `{name}`"))),
             None => Ok(None),
+            // As in MuJoCo, this switches off a range of the class.
+            Some([0.0, 0.0]) if !is_limited => Ok(None),
             Some(_) if !is_limited && !autolimits => {
                 Err(self.refused(format!("without autolimits `{name}` needs `{flag}`")))
             }

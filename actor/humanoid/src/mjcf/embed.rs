@@ -139,10 +139,8 @@ fn mesh(asset: &Element, path: &Path, is_mass: bool) -> Result<Vec<Attribute>, M
             format!("`{}` is neither STL, OBJ nor DAE; convert it, or collide with primitive shapes", path.display());
         return Err(ModelError::unsupported(&label, problem));
     }
-    let scene = files::read_mesh(&asset.label, path)?;
-    let vertices = scene.meshes.iter().flat_map(|mesh| &mesh.vertices);
-    let mut points: Vec<[f32; 3]> =
-        vertices.copied().filter(|vertex| vertex.iter().all(|entry| entry.is_finite())).collect();
+    let mut points = files::mesh_vertices(&asset.label, path)?;
+    points.retain(|vertex| vertex.iter().all(|entry| entry.is_finite()));
     // Files repeat a vertex for every triangle.
     points.sort_unstable_by(|one, other| {
         one.iter().map(|entry| entry.to_bits()).cmp(other.iter().map(|entry| entry.to_bits()))

@@ -157,6 +157,23 @@ pub(super) fn read_mesh(name: &str, path: &Path) -> Result<Scene, ModelError> {
     })
 }
 
+/// Returns the vertices of a mesh file. As in MuJoCo, those of an OBJ file count whether a face names them or not, by their
+/// first three numbers.
+pub(super) fn mesh_vertices(name: &str, path: &Path) -> Result<Vec<[f32; 3]>, ModelError> {
+    let scene = read_mesh(name, path)?;
+    if !has_extension(path, &["obj"]) {
+        return Ok(scene.meshes.into_iter().flat_map(|mesh| mesh.vertices).collect());
+    }
+    let text = read_bytes(path)?;
+    let vertex = |line: &str| {
+        let mut words = line.split_whitespace();
+        words.next().filter(|kind| *kind == "v")?;
+        let mut number = || words.next()?.parse::<f32>().ok();
+        Some([number()?, number()?, number()?])
+    };
+    Ok(String::from_utf8_lossy(&text).lines().filter_map(vertex).collect())
+}
+
 /// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).
 fn is_binary_stl(bytes: &[u8]) -> bool {
     let count = bytes.get(STL_HEADER..).and_then(|rest| rest.first_chunk::<4>()).copied().map(u32::from_le_bytes);

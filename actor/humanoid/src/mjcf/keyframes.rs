@@ -19,12 +19,14 @@ pub(super) fn read(model: &Model, keys: &[Element]) -> Result<Vec<Keyframe>, Mod
 fn read_key(model: &Model, key: &Element) -> Result<Keyframe, ModelError> {
     let list = |attribute: &str, default: Vec<f64>| {
         let Some(text) = key.get(attribute) else { return Ok(default) };
-        let list = numbers(text).ok_or_else(|| key.wrong(attribute, "finite numbers"))?;
-        if list.len() == default.len() {
-            return Ok(list);
+        let mut list = numbers(text).ok_or_else(|| key.wrong(attribute, "finite numbers"))?;
+        if list.len() > default.len() {
+            let problem = format!("`{attribute}` has {} numbers, but the model has {}", list.len(), default.len());
+            return Err(key.refused(problem));
         }
-        let problem = format!("`{attribute}` has {} numbers, but the model needs {}", list.len(), default.len());
-        Err(key.refused(problem))
+        // As in MuJoCo, a list may end early.
+        list.extend(&default[list.len()..]);
+        Ok(list)
     };
     let mut position = list("qpos", model.nominal_position())?;
     let length = position[3..7].iter().map(|entry| entry * entry).sum::<f64>().sqrt();

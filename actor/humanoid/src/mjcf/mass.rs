@@ -8,8 +8,8 @@ use crate::error::ModelError;
 use crate::model::inertia::{self, MassProperties};
 use crate::model::not_negative;
 
-/// Relative tolerance of the triangle inequality of principal inertias, since numbers in texts are rounded.
-const TRIANGLE_TOLERANCE: f64 = 1e-3;
+/// Relative rounding of principal inertias that a matrix gives. MuJoCo refuses what a text rounds.
+const TRIANGLE_TOLERANCE: f64 = 1e-12;
 
 /// Returns the mass properties of one MJCF body's parts, in the frame of its rigid body; `geoms` are its geoms' masses.
 pub(super) fn parts_of_body(

@@ -1,6 +1,6 @@
 //! Motors and servos.
 
-use super::defaults::REPLACED;
+use super::defaults::{REPLACED, inherits_nothing};
 use super::element::Element;
 use crate::articulation::Structure;
 use crate::error::ModelError;
@@ -39,7 +39,8 @@ pub(super) fn read(actuator: &Element, hinges: &[Hinge], autolimits: bool) -> Re
         return Err(ModelError::quantity(&name, "gear", gear, "other than 0"));
     }
     for [one, other] in REPLACED {
-        if actuator.get(one).is_some() && actuator.get(other).is_some() {
+        let is_set = |name: &str| actuator.get(name).is_some_and(|value| !inherits_nothing(name, value));
+        if is_set(one) && is_set(other) {
             return Err(actuator.refused(format!("give either `{one}` or `{other}`, not both")));
         }
     }

@@ -304,8 +304,11 @@ impl<'a> Reader<'a> {
             body.inertia_kgm2 = mass.inertia_kgm2;
             let least_kgm2 = body.inertia_kgm2.symmetric_eigenvalues().min();
             if !(least_kgm2.is_finite() && least_kgm2 > 0.0) {
-                let wanted = "finite and above 0";
-                return Err(ModelError::quantity(&body.name, "least principal inertia (kg·m²)", least_kgm2, wanted));
+                let problem = format!(
+                    "its least principal inertia is {least_kgm2} kg·m², but must be finite and above 0; correct it, or set \
+                     boundinertia=\"1e-5\" in <compiler>"
+                );
+                return Err(ModelError::unsupported(&body.name, problem));
             }
         }
         if total_kg > 0.0 {

@@ -309,13 +309,6 @@ impl Builder {
             let problem = format!("<{section}><{tag}> is not supported; accepted: {}", kinds.join(", "));
             return Err(ModelError::unsupported(&label, problem));
         };
-        // MuJoCo keeps one set of defaults for all actuators.
-        if section == "actuator"
-            && let Some(other) = self.classes.actuators.iter().find(|other| *other != tag)
-        {
-            let problem = format!("defaults of <{other}> apply to it: all actuators must be of one kind");
-            return Err(ModelError::unsupported(&label, problem));
-        }
         let element = self.classes.with_defaults(node, None, label)?;
         let element = match own_name(node) {
             Some(_) => self.named(if section == "actuator" { section } else { kind }, element)?,

@@ -162,7 +162,7 @@ fn files_that_cannot_be_used_are_named() {
         folder.read("changed.xml")
     };
     let problem = with("skull.stl", "skull.msh").expect_err("a format of MuJoCo alone");
-    assert!(problem.contains("mesh `skull`") && problem.contains("neither STL nor OBJ"), "{problem}");
+    assert!(problem.contains("mesh `skull`") && problem.contains("neither STL, OBJ nor DAE"), "{problem}");
     let problem = with("sole.OBJ", "gone.obj").expect_err("missing");
     assert!(problem.contains(Path::new("parts").join("gone.obj").to_str().expect("text")), "{problem}");
     // Without an <inertial> the mass would be that of the faces.

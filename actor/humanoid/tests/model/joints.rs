@@ -155,12 +155,15 @@ fn keyframes_are_states_with_controls() {
     assert_eq!((stand.velocity.clone(), &stand.controls[..]), (vec![0.0; 10], &[1.0, 2.0, 3.0, 4.0][..]));
     assert_eq!(other.position, model.nominal_position());
     assert_eq!((other.velocity[9], &other.controls[..]), (10.0, &[0.0; 4][..]));
+    // A list that ends early leaves the rest as it is.
+    let short = Model::from_mjcf(&changed(SERVOS, "qvel='1 ", "qvel='7'/><key qvel='1 ")).expect("valid");
+    assert_eq!(short.keyframes[1].velocity, [&[7.0][..], &[0.0; 9]].concat());
     Text(SERVOS).assert_refused(&[
-        ("qpos='0.1 ", "qpos='", &["stand", "`qpos` has 10 numbers", "needs 11"]),
+        ("qpos='0.1 ", "qpos='0 0.1 ", &["stand", "`qpos` has 12 numbers", "has 11"]),
         ("qpos='0.1 ", "qpos='nan ", &["stand", "qpos", "finite"]),
         ("0 0 2 0 0.1", "0 0 0 0 0.1", &["stand", "quaternion", "zero"]),
-        ("qvel='1 ", "qvel='", &["key 2", "`qvel` has 9 numbers", "needs 10"]),
-        ("ctrl='1 ", "ctrl='", &["stand", "`ctrl` has 3 numbers", "needs 4"]),
+        ("qvel='1 ", "qvel='0 1 ", &["key 2", "`qvel` has 11 numbers", "has 10"]),
+        ("ctrl='1 ", "ctrl='0 1 ", &["stand", "`ctrl` has 5 numbers", "has 4"]),
         ("<key qvel", "<key name='stand' qvel", &["stand", "two elements <key>"]),
         ("<key qvel", "<key act='1' qvel", &["key 2", "act", "not supported"]),
         ("<key qvel", "<lock/><key qvel", &["keyframe", "<lock>", "not supported"]),

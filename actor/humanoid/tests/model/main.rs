@@ -1,5 +1,6 @@
 //! Model texts: values read from them, and refusals.
 
+mod actuators;
 mod assets;
 mod cards;
 mod contacts;

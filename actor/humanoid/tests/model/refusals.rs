@@ -43,7 +43,6 @@ fn errors_in_the_built_in_text_name_the_element() {
         ("size=\"0.09\"", "size=\"-0.09\"", &["head"]),
         ("size=\"0.09\"", "size=\"1e19\"", &["head"]),
         ("joint=\"left_elbow\" gear", "joint=\"left_wing\" gear", &["left_elbow"]),
-        ("<motor name=\"abdomen_x\"", "<position name=\"abdomen_x\"", &["abdomen_x"]),
         ("type=\"plane\"", "type=\"plane\" pos=\"0 0 1\"", &["floor"]),
         ("ctrlrange=\"-0.4 0.4\"", "ctrlrange=\"0.5 -0.4\"", &["abdomen_y"]),
         ("stiffness=\"20\"", "stiffness=\"-20\"", &["abdomen_z"]),
@@ -198,8 +197,6 @@ fn motors_must_exist_and_have_a_strength() {
         ("<motor name='biceps'", "<general dyntype='filter' name='biceps'", &["biceps", "dyntype"]),
         ("<default class='limb'/>", "<position kp='5'/>", &["limb"]),
     ]);
-    let mixed = changed(ARM, "<default class='limb'/>", "<position kp='5'/><default class='limb'/>");
-    assert!(problem(&mixed).contains("defaults of <position>"));
     let open_ended = changed(ARM, "<motor name='biceps'", "<position kp='5' name='biceps'");
     assert!(problem(&changed(&open_ended, "ctrlrange='-1 1'", "")).contains("range of its targets"));
     let inherited = changed(&open_ended, "ctrlrange='-1 1'", "inheritrange='0.9'");
