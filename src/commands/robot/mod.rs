@@ -65,7 +65,9 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
         atomic_file::write(path, &picture).map_err(|why| Usage(format!("--png {}: {why}", path.display())))?;
     }
     // Numbers of links and hinges are those with all hinges at zero.
-    physics.set_state(&robot.nominal_position(), &vec![0.0; robot.velocity_size()]);
+    let mut at_zero = robot.nominal_position();
+    at_zero[7..].fill(0.0);
+    physics.set_state(&at_zero, &vec![0.0; robot.velocity_size()]);
     // Nothing but a viewer needs them.
     let meshes = mjcf::visual_meshes(&args.file, &args.files.files()).map_or(0, |meshes| meshes.len());
     if args.json {

@@ -1,6 +1,6 @@
 //! Joints: the root's free joint, and hinges.
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
 use super::element::Element;
 use super::tree::Compiler;
@@ -50,6 +50,7 @@ pub(super) fn read_hinge(joint: &Element, compiler: &Compiler) -> Result<Hinge, 
         min_rad,
         max_rad,
         stiffness_nmprad: joint.amount("stiffness", "stiffness (N·m/rad)")?,
+        nominal_rad: compiler.angles.radians(joint.number("ref").unwrap_or(0.0)),
         rest_rad: compiler.angles.radians(joint.number("springref").unwrap_or(0.0)),
         damping_nmsprad: joint.amount("damping", "damping (N·m·s/rad)")?,
         armature_kgm2: joint.amount("armature", "armature (kg·m²)")?,
@@ -61,4 +62,15 @@ pub(super) fn read_hinge(joint: &Element, compiler: &Compiler) -> Result<Hinge, 
         torque_nm: torque_nm.unwrap_or(UNLIMITED),
         name: joint.label.clone(),
     })
+}
+
+/// Returns the motion of a body from its pose in the text to the one with its hinges at zero.
+pub(super) fn from_nominal(hinges: &[Hinge]) -> Result<Isometry3<f64>, ModelError> {
+    let Some(hinge) = hinges.iter().find(|hinge| hinge.nominal_rad != 0.0) else { return Ok(Isometry3::identity()) };
+    if hinges.len() > 1 {
+        let problem = "with several hinges of one body `ref` must be 0; give each hinge a body";
+        return Err(ModelError::unsupported(&hinge.name, problem));
+    }
+    let back = UnitQuaternion::from_axis_angle(&hinge.axis, -hinge.nominal_rad);
+    Ok(Isometry3::rotation_wrt_point(back, hinge.anchor_m))
 }

@@ -142,7 +142,7 @@ impl<'a> Reader<'a> {
             return Ok(Placement { body: None, offset: Isometry3::identity() });
         }
         let Placement { body: parent, offset } = self.placements[body.parent];
-        let pose = offset * body.pose.isometry();
+        let mut pose = offset * body.pose.isometry();
         if body.joints.is_empty() {
             return Ok(Placement { body: parent, offset: pose });
         }
@@ -153,6 +153,7 @@ impl<'a> Reader<'a> {
             for joint in &body.joints {
                 self.hinges.push(joints::read_hinge(joint, &self.tree.compiler)?);
             }
+            pose *= joints::from_nominal(&self.hinges[first..])?;
         }
         self.bodies.push(Body {
             name: body.name.clone(),

@@ -90,8 +90,7 @@ const JOINT: &Rules = &[
     ("actuatorgravcomp", Only("false")),
     ("solreflimit solreffriction", Numbers(1, 2)),
     ("solimplimit solimpfriction", Numbers(1, 5)),
-    ("ref", Only("0")),
-    ("springref stiffness damping armature frictionloss margin", Numbers(1, 1)),
+    ("ref springref stiffness damping armature frictionloss margin", Numbers(1, 1)),
 ];
 
 const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
@@ -101,10 +100,10 @@ const GEOM: &Rules = &[
     ("mesh hfield", Word),
     ("size friction", Numbers(1, 3)),
     ("fromto", Numbers(6, 6)),
-    ("mass density margin solmix", Numbers(1, 1)),
+    // In MuJoCo 4.0 contacts within a gap beyond the margin are seen, but without force.
+    ("mass density margin gap solmix", Numbers(1, 1)),
     ("shellinertia", Only("false")),
     ("contype conaffinity condim priority", Whole(1, 1)),
-    ("gap", Only("0")),
     ("solref", Numbers(1, 2)),
     ("solimp", Numbers(1, 5)),
     // No effect without a fluid.
@@ -152,8 +151,7 @@ const PAIR: &Rules = &[
     ("friction", Numbers(1, 5)),
     ("solref", Numbers(1, 2)),
     ("solimp", Numbers(1, 5)),
-    ("margin", Numbers(1, 1)),
-    ("gap", Only("0")),
+    ("margin gap", Numbers(1, 1)),
     ("solreffriction", Only("0 0")),
 ];
 

@@ -174,6 +174,8 @@ pub struct Hinge {
     pub min_rad: f64,
     /// Largest allowed angle (rad); +∞ without a limit.
     pub max_rad: f64,
+    /// Angle in the pose of the text (rad).
+    pub nominal_rad: f64,
     /// Stiffness of the spring towards `rest_rad` (N·m/rad).
     pub stiffness_nmprad: f64,
     /// Rest angle of the spring (rad).
@@ -279,6 +281,7 @@ impl Model {
         let mut position = vec![0.0; self.position_size()];
         position[..3].copy_from_slice(root.translation.vector.as_slice());
         position[3..7].copy_from_slice(&[quaternion.w, quaternion.i, quaternion.j, quaternion.k]);
+        position[7..].iter_mut().zip(&self.hinges).for_each(|(angle_rad, hinge)| *angle_rad = hinge.nominal_rad);
         position
     }
 

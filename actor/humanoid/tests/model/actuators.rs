@@ -1,7 +1,7 @@
 //! Actuators under default classes. What is expected is what MuJoCo 4.0 computes from the same texts.
 
 use treadmill_humanoid::model::Motor;
-use treadmill_humanoid::{Model, ModelError};
+use treadmill_humanoid::{EnvironmentConfig, Model, ModelError, Physics};
 
 use crate::support::Folder;
 
@@ -70,6 +70,31 @@ fn ranges_of_zero_switch_off_those_of_a_class() {
     assert_eq!(hinge("range='0 0'").expect("unlimited"), [f64::NEG_INFINITY, f64::INFINITY]);
     let problem = hinge("range='0 0' limited='true'").expect_err("an empty range").to_string();
     assert!(problem.contains("`range` is \"0 0\""), "{problem}");
+}
+
+#[test]
+fn a_hinge_with_a_reference_has_that_angle_in_the_pose_of_the_text() {
+    let of = |hinge: &str| {
+        let text = format!(
+            "<mujoco><worldbody><body pos='0 0 2'><freejoint/><geom size='.1'/><body pos='0 0 -.4' euler='0 0 30'>
+             <joint axis='0 1 0' pos='0 0 .1' {hinge}/><geom size='.1' pos='.3 0 0'/></body></body></worldbody></mujoco>"
+        );
+        Model::without_motors(&text).expect("valid")
+    };
+    let (plain, referred) = (of(""), of("ref='20' range='-60 60' springref='5' stiffness='1'"));
+    assert_eq!(plain.nominal_position()[7], 0.0);
+    assert!((referred.nominal_position()[7] - 20_f64.to_radians()).abs() < 1e-12);
+    // Range and spring count from the angle 0, which is 20° before the pose of the text.
+    assert!((referred.hinges[0].max_rad - 60_f64.to_radians()).abs() < 1e-12);
+    assert!((referred.hinges[0].rest_rad - 5_f64.to_radians()).abs() < 1e-12);
+    let place = |model: Model| {
+        let mut physics = Physics::new(model.clone(), &EnvironmentConfig::default()).expect("a world");
+        physics.set_state(&model.nominal_position(), &vec![0.0; model.velocity_size()]);
+        physics.body_motion(1).pose
+    };
+    let (plain, referred) = (place(plain), place(referred));
+    assert!((plain.translation.vector - referred.translation.vector).norm() < 1e-6, "{plain} {referred}");
+    assert!(plain.rotation.angle_to(&referred.rotation) < 1e-6, "{plain} {referred}");
 }
 
 #[test]

@@ -118,7 +118,6 @@ fn impossible_pairs_are_refused_by_name() {
         (pair, "<pair geom1='ghost' geom2='floor' friction='-1 -1'/>", &["ghost", "friction", "-1"]),
         (pair, "<pair geom1='ghost' geom2='floor' condim='2'/>", &["ghost", "condim", "1, 3, 4 or 6"]),
         (pair, "<pair geom1='ghost' geom2='floor' margin='0.03'/>", &["ghost", "margin", "0.02"]),
-        (pair, "<pair geom1='ghost' geom2='floor' gap='0.01'/>", &["ghost", "gap"]),
         (pair, "<pair geom1='ghost' geom2='floor' solref='0.02 -1'/>", &["ghost", "solref"]),
         (pair, "<pair geom1='ghost' geom2='floor' solreffriction='0.02 1'/>", &["ghost", "solreffriction"]),
         (pair, "<pair geom1='ghost' geom2='floor' class='rough'/>", &["ghost", "rough"]),
