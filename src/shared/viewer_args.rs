@@ -37,7 +37,7 @@ pub struct ViewerArgs {
     /// Play in real time at this speed factor; by default all motion is sent at once.
     #[arg(long, value_name = "TIMES", value_parser = positive, conflicts_with = "live")]
     pub speed: Option<f64>,
-    /// MJCF or URDF file, or card, of the robot on this machine, whose visual meshes are shown instead of the colliding shapes.
+    /// MJCF or URDF file, or card, of the robot on this machine; shows its visual meshes instead of the colliding shapes.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Flags about that file.

@@ -3,13 +3,15 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::defaults::Classes;
-use super::element::Element;
+use super::element::{self, Element};
 use super::vocabulary;
+use super::xml::{elements, sections};
 use crate::error::ModelError;
+use crate::model::moments::{Moments, Sum};
 use crate::model::{HEIGHT_FIELD_SIDE_MAX, HeightField, hull, length};
 
 /// Assets of a text, by name.
@@ -18,6 +20,8 @@ pub(super) struct Assets {
     /// Meshes with vertices in the text.
     meshes: BTreeMap<String, Mesh>,
     height_fields: BTreeMap<String, Element>,
+    /// Moments of mesh files, in the frame of the file.
+    of_files: BTreeMap<String, Moments>,
 }
 
 #[derive(Debug)]
@@ -25,9 +29,15 @@ struct Mesh {
     vertices: Vec<Point3<f64>>,
     /// Corners of its convex hull, once a geom needs them.
     hull: OnceCell<Option<Vec<Point3<f64>>>>,
-    /// Whether its mass is that of its convex hull.
-    is_convex: bool,
+    /// Motion from the vertices of the text to those in the frame of the geom.
+    linear: Matrix3<f64>,
+    shift_m: Vector3<f64>,
+    /// Moments by the faces in the text, in the frame of the geom.
+    moments: Option<Moments>,
 }
+
+/// Beginning of the name of a `<numeric>` with the moments of a mesh file.
+pub(super) const MOMENTS: &str = "treadmill_moments_";
 
 impl Assets {
     /// Reads a `<mesh>` or a `<hfield>`. A mesh without vertices is ignored: a geom that needs it is refused.
@@ -50,6 +60,19 @@ impl Assets {
         if is_new { Ok(()) } else { Err(ModelError::unsupported(&label, "there are two of this name")) }
     }
 
+    /// Reads the moments of mesh files in the `<custom>` sections of a text.
+    pub(super) fn read_moments(&mut self, root: Node<'_, '_>) -> Result<(), ModelError> {
+        for node in sections(root, "custom").flat_map(elements) {
+            let Some(mesh) = node.attribute("name").and_then(|name| name.strip_prefix(MOMENTS)) else { continue };
+            let numbers = node.attribute("data").and_then(element::numbers).unwrap_or_default();
+            let moments = Moments::from_numbers(&numbers).ok_or_else(|| {
+                ModelError::unsupported(&format!("mesh `{mesh}`"), "its moments must be ten numbers, the first above 0")
+            })?;
+            self.of_files.insert(mesh.to_owned(), moments);
+        }
+        Ok(())
+    }
+
     /// Returns the vertices of a mesh's convex hull in the frame of its geom; `None` if the text has no vertices.
     pub(super) fn hull(&self, name: &str) -> Result<Option<Vec<Point3<f64>>>, ModelError> {
         let Some(mesh) = self.meshes.get(name) else { return Ok(None) };
@@ -62,9 +85,11 @@ impl Assets {
         hull.clone().ok_or_else(flat).map(Some)
     }
 
-    /// Returns whether the mass of a mesh is that of its convex hull.
-    pub(super) fn is_convex(&self, name: &str) -> bool {
-        self.meshes.get(name).is_none_or(|mesh| mesh.is_convex)
+    /// Returns the moments of a mesh in the frame of its geom; `None` if they are those of its hull.
+    pub(super) fn moments(&self, name: &str) -> Option<Moments> {
+        let mesh = self.meshes.get(name)?;
+        let of_file = self.of_files.get(name).map(|moments| moments.transformed(&mesh.linear, &mesh.shift_m));
+        of_file.or(mesh.moments)
     }
 
     /// Returns the height field of a level geom at `centre_m`.
@@ -122,16 +147,62 @@ fn read_mesh(mesh: &Element) -> Result<Mesh, ModelError> {
     let place = Vector3::from(mesh.list_over("refpos", [0.0; 3]));
     let reference = Isometry3::from_parts(place.into(), turn);
     let scale = Vector3::from(mesh.list_over("scale", [1.0; 3]));
-    let placed = |vertex: &[f64]| {
-        let vertex = Point3::new(vertex[0], vertex[1], vertex[2]);
-        Point3::from(reference.inverse_transform_point(&vertex).coords.component_mul(&scale))
-    };
+    let linear = Matrix3::from_diagonal(&scale) * turn.inverse().to_rotation_matrix();
+    let shift_m = -(linear * reference.translation.vector);
+    let placed = |vertex: &[f64]| Point3::from(linear * Vector3::from_column_slice(vertex) + shift_m);
     let vertices: Vec<Point3<f64>> = given.chunks_exact(3).map(placed).collect();
     if !vertices.iter().flat_map(|vertex| vertex.iter()).all(|entry| entry.abs() < 1e6) {
         return Err(mesh.refused("its vertices are more than 1000 km away; check `scale`"));
     }
-    let is_convex = mesh.get("face").is_none() || mesh.get("inertia") == Some("convex");
-    Ok(Mesh { vertices, hull: OnceCell::new(), is_convex })
+    let moments = match mesh.list("face").filter(|_| mesh.get("inertia") != Some("convex")) {
+        None => None,
+        Some(numbers) => {
+            let corner = |number: &f64| Some(*number as usize).filter(|corner| *corner < vertices.len());
+            let corners = numbers.iter().map(corner).collect::<Option<Vec<usize>>>();
+            let faces = corners.filter(|corners| corners.len().is_multiple_of(3)).ok_or_else(|| {
+                mesh.refused(format!("`face` must be three indices below {} for each triangle", vertices.len()))
+            })?;
+            Some(moments(&mesh.label, mesh.get("inertia"), &vertices, faces.as_chunks().0)?)
+        }
+    };
+    Ok(Mesh { vertices, hull: OnceCell::new(), linear, shift_m, moments })
+}
+
+/// Returns the moments of a mesh by its `inertia`.
+pub(super) fn moments(
+    label: &str,
+    inertia: Option<&str>,
+    points: &[Point3<f64>],
+    faces: &[[usize; 3]],
+) -> Result<Moments, ModelError> {
+    let found = match inertia {
+        Some("convex") => Moments::of_hull(points),
+        _ if points.iter().flat_map(|point| point.iter()).any(|entry| !entry.is_finite()) => None,
+        Some("exact") => is_closed(points, faces, Sum::Signed).then(|| Moments::of_faces(points, faces, Sum::Signed)),
+        _ => is_closed(points, faces, Sum::Absolute).then(|| Moments::of_faces(points, faces, Sum::Absolute)),
+    };
+    found.filter(|moments| moments.volume() > 0.0).ok_or_else(|| {
+        let problem = "its mass is unknown, because its faces leave holes or are turned inside out; set inertia=\"convex\" in \
+                       <mesh>, or give the body an <inertial>";
+        ModelError::unsupported(label, problem)
+    })
+}
+
+/// Returns whether two faces share each edge; for signed sums, in opposite directions.
+fn is_closed(points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> bool {
+    // Faces along each edge in its two directions.
+    let mut edges: BTreeMap<[[u64; 3]; 2], [u32; 2]> = BTreeMap::new();
+    // Files repeat a vertex for every triangle.
+    let key = |corner: usize| [0, 1, 2].map(|axis| points[corner][axis].to_bits());
+    for [a, b, c] in faces {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (from, to) = (key(*from), key(*to));
+            let is_ascending = from < to;
+            let edge = if is_ascending { [from, to] } else { [to, from] };
+            edges.entry(edge).or_default()[usize::from(is_ascending)] += 1;
+        }
+    }
+    edges.values().all(|[back, forth]| if sum == Sum::Signed { [*back, *forth] == [1, 1] } else { back + forth == 2 })
 }
 
 /// Returns elevations as heights from 0 to `top_m`. The first row of the text is that of the greatest y.

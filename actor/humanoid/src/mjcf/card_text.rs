@@ -26,16 +26,10 @@ pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
 
 /// Returns a model text with a card in it.
 pub(crate) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
-    let document = xml::parse_model(text)?;
-    let root = document.root_element().range();
-    let end = text[..root.end].rfind("</").unwrap_or(root.end);
     let attributes = [("name", CARD_TEXT), ("data", card)].map(|(name, value)| (name.to_owned(), value.to_owned()));
-    let mut whole = text[..end].to_owned();
-    whole.push_str("<custom>");
-    xml::write(&mut whole, "text", &attributes);
-    whole.push_str("</custom>\n");
-    whole.push_str(&text[end..]);
-    Ok(whole)
+    let mut element = String::new();
+    xml::write(&mut element, "text", &attributes);
+    xml::with_custom(text, &element)
 }
 
 /// Returns the card in a model text, if there is one.

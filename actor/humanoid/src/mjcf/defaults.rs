@@ -134,8 +134,8 @@ fn key(tag: &str) -> &str {
 }
 
 impl Defaults {
-    /// Returns the attributes as they hold for a tag. As in MuJoCo, an actuator of another kind takes ranges and gear, but not
-    /// the gains, unless one of the two is `general`.
+    /// Returns the attributes as they hold for a tag. As in MuJoCo, an actuator of another kind takes ranges and gear, but
+    /// not the gains, unless one of the two is `general`.
     fn attributes_for(&self, tag: &str) -> Vec<Attribute> {
         if self.tag == tag || self.tag.is_empty() {
             return self.attributes.clone();

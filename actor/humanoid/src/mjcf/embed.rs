@@ -10,6 +10,7 @@ use nalgebra::Point3;
 use png::{BitDepth, ColorType, Transformations};
 use roxmltree::{Document, Node};
 
+use super::assets::{self, MOMENTS};
 use super::card_text::with_card;
 use super::defaults::Classes;
 use super::element::{Attribute, Element};
@@ -19,7 +20,7 @@ use super::xml::{self, elements, sections};
 use crate::clearance;
 use crate::config::PhysicsSettings;
 use crate::error::ModelError;
-use crate::model::{HEIGHT_FIELD_SIDE_MAX, Model, hull};
+use crate::model::{HEIGHT_FIELD_SIDE_MAX, Model, hull, moments::Moments};
 use crate::physics::Physics;
 
 /// Reads a model file and replaces each `<include>` by the content of its file.
@@ -65,11 +66,17 @@ fn embed(document: &Document<'_>, folder: &Path) -> Result<String, ModelError> {
     let found = AssetFiles::of(document, folder)?;
     let wanted = wanted(document.root_element(), &found.classes)?;
     let (mut whole, mut done) = (String::with_capacity(text.len()), 0);
+    let mut masses = String::new();
     for (node, asset) in &found.assets {
         let (tag, name) = (node.tag_name().name(), &asset.label);
         let Some(path) = found.path_of(asset) else { continue };
         let Some(is_mass) = wanted.get(&(tag, name.clone())) else { continue };
-        let numbers = if tag == "mesh" { mesh(asset, &path, *is_mass)? } else { heights(name, &path)? };
+        let numbers = if tag == "mesh" { mesh(asset, &path)? } else { heights(name, &path)? };
+        if *is_mass {
+            let moments: Vec<String> = moments(asset, &path)?.numbers().iter().map(f64::to_string).collect();
+            let data = [("name".to_owned(), format!("{MOMENTS}{name}")), ("data".to_owned(), moments.join(" "))];
+            xml::write(&mut masses, "numeric", &data);
+        }
         let mut own = Element::of(*node, tag).attributes;
         own.retain(|(attribute, _)| !["name", "file", "nrow", "ncol", "content_type"].contains(&attribute.as_str()));
         own.insert(0, ("name".to_owned(), name.clone()));
@@ -79,7 +86,7 @@ fn embed(document: &Document<'_>, folder: &Path) -> Result<String, ModelError> {
         done = node.range().end;
     }
     whole.push_str(&text[done..]);
-    Ok(whole)
+    if masses.is_empty() { Ok(whole) } else { xml::with_custom(&whole, &masses) }
 }
 
 /// Assets that geoms need, by tag and name, and whether they give mass.
@@ -132,14 +139,14 @@ fn collect_needs<'a>(
 }
 
 /// Returns the corners of a mesh's convex hull as attributes.
-fn mesh(asset: &Element, path: &Path, is_mass: bool) -> Result<Vec<Attribute>, ModelError> {
+fn mesh(asset: &Element, path: &Path) -> Result<Vec<Attribute>, ModelError> {
     let label = format!("mesh `{}`", asset.label);
     if !files::is_mesh(path) {
         let problem =
             format!("`{}` is neither STL, OBJ nor DAE; convert it, or collide with primitive shapes", path.display());
         return Err(ModelError::unsupported(&label, problem));
     }
-    let mut points = files::mesh_vertices(&asset.label, path)?;
+    let (mut points, _) = files::triangles(&asset.label, path)?;
     points.retain(|vertex| vertex.iter().all(|entry| entry.is_finite()));
     // Files repeat a vertex for every triangle.
     points.sort_unstable_by(|one, other| {
@@ -153,12 +160,14 @@ fn mesh(asset: &Element, path: &Path, is_mass: bool) -> Result<Vec<Attribute>, M
     };
     let numbers: Vec<String> =
         corners.iter().flat_map(|corner| corner.iter()).map(|entry| (*entry as f32).to_string()).collect();
-    let mut found = vec![("vertex".to_owned(), numbers.join(" "))];
-    if is_mass && asset.get("inertia") != Some("convex") {
-        // Marks that the mass is not that of the hull.
-        found.push(("face".to_owned(), "0 1 2".to_owned()));
-    }
-    Ok(found)
+    Ok(vec![("vertex".to_owned(), numbers.join(" "))])
+}
+
+/// Returns the moments of a mesh file: its hull has at most 64 corners, its mass is that of the whole.
+fn moments(asset: &Element, path: &Path) -> Result<Moments, ModelError> {
+    let (vertices, faces) = files::triangles(&asset.label, path)?;
+    let points: Vec<Point3<f64>> = vertices.into_iter().map(|vertex| Point3::from(vertex.map(f64::from))).collect();
+    assets::moments(&format!("mesh `{}`", asset.label), asset.get("inertia"), &points, &faces)
 }
 
 /// Returns the heights of a grey PNG file as attributes; its first row is that of the greatest y.

@@ -157,21 +157,42 @@ pub(super) fn read_mesh(name: &str, path: &Path) -> Result<Scene, ModelError> {
     })
 }
 
-/// Returns the vertices of a mesh file. As in MuJoCo, those of an OBJ file count whether a face names them or not, by their
-/// first three numbers.
-pub(super) fn mesh_vertices(name: &str, path: &Path) -> Result<Vec<[f32; 3]>, ModelError> {
+/// Returns vertices and triangles of a mesh file. As in MuJoCo, the vertices of an OBJ file count whether a face names them or
+/// not, by their first three numbers.
+pub(super) fn triangles(name: &str, path: &Path) -> Result<(Vec<[f32; 3]>, Vec<[usize; 3]>), ModelError> {
     let scene = read_mesh(name, path)?;
-    if !has_extension(path, &["obj"]) {
-        return Ok(scene.meshes.into_iter().flat_map(|mesh| mesh.vertices).collect());
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    if has_extension(path, &["obj"]) {
+        let text = read_bytes(path)?;
+        for line in String::from_utf8_lossy(&text).lines() {
+            let mut words = line.split_whitespace();
+            match words.next() {
+                Some("v") => {
+                    let mut number = || words.next().and_then(|word| word.parse().ok()).unwrap_or(f32::NAN);
+                    vertices.push([number(), number(), number()]);
+                }
+                Some("f") => {
+                    let corners: Vec<usize> = words.filter_map(|word| corner(word, vertices.len())).collect();
+                    faces.extend(corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]));
+                }
+                _ => {}
+            }
+        }
+        return Ok((vertices, faces));
     }
-    let text = read_bytes(path)?;
-    let vertex = |line: &str| {
-        let mut words = line.split_whitespace();
-        words.next().filter(|kind| *kind == "v")?;
-        let mut number = || words.next()?.parse::<f32>().ok();
-        Some([number()?, number()?, number()?])
-    };
-    Ok(String::from_utf8_lossy(&text).lines().filter_map(vertex).collect())
+    for part in scene.meshes {
+        let first = vertices.len();
+        vertices.extend(part.vertices);
+        faces.extend(part.faces.iter().map(|face| face.map(|corner| first + corner as usize)));
+    }
+    Ok((vertices, faces))
+}
+
+/// Returns the index of a vertex that a face of an OBJ file names: from 1, or backwards from the last one, as in `7/2/3`.
+fn corner(word: &str, vertices: usize) -> Option<usize> {
+    let number: isize = word.split('/').next()?.parse().ok()?;
+    let index = if number < 0 { vertices.checked_add_signed(number)? } else { usize::try_from(number - 1).ok()? };
+    Some(index).filter(|index| *index < vertices)
 }
 
 /// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).

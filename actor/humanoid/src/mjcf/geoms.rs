@@ -52,15 +52,17 @@ pub(super) fn read(
         }
         return Err(geom.refused(format!("the mass of {} is unknown; give the body an <inertial>", describe(geom))));
     };
-    if let Some(mesh) = mesh.filter(|mesh| !weightless && !assets.is_convex(mesh)) {
-        return Err(geom.refused(format!(
-            "its mass depends on the faces of mesh `{mesh}`; remove `face`, set inertia=\"convex\" in <mesh>, or give the \
-             body an <inertial>"
-        )));
-    }
     let mass = (!weightless).then(|| {
         // A density of 1 kg/m³ gives the volume.
-        let unit = inertia::of_geometry(&geometry, 1.0);
+        let of_mesh = mesh.filter(|_| kind(geom) == "mesh").and_then(|mesh| assets.moments(mesh));
+        let unit = of_mesh.map_or_else(
+            || inertia::of_geometry(&geometry, 1.0),
+            |moments| {
+                let pose = offset * pose;
+                let turn = pose.rotation.to_rotation_matrix();
+                moments.transformed(turn.matrix(), &pose.translation.vector).mass_properties(1.0)
+            },
+        );
         let volume_m3 = unit.mass_kg;
         unit.scaled(mass_kg.map_or(density_kgpm3, |mass_kg| mass_kg / volume_m3))
     });

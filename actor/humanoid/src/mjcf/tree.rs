@@ -110,6 +110,7 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
     for asset in sections(root, "asset").flat_map(elements).filter(|asset| !is_inert(asset.tag_name().name())) {
         tree.assets.read(asset, &builder.classes)?;
     }
+    tree.assets.read_moments(root)?;
     for key in sections(root, "keyframe").flat_map(elements) {
         if !key.has_tag_name("key") {
             let problem = format!("<{}> is not supported", key.tag_name().name());

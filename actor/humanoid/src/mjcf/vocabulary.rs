@@ -163,7 +163,8 @@ const MESH: &Rules = &[
     ("refquat", Numbers(4, 4)),
     ("inertia", Only("convex|exact|legacy")),
     ("maxhullvert", Only("-1")),
-    ("face normal texcoord smoothnormal content_type material octree_maxdepth", Inert),
+    ("face", Whole(3, 6 * MESH_VERTICES_MAX)),
+    ("normal texcoord smoothnormal content_type material octree_maxdepth", Inert),
     // Beside vertices MuJoCo refuses these; in a class they hold for other meshes.
     ("file builtin params", Inert),
 ];

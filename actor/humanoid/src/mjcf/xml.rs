@@ -46,6 +46,13 @@ pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item =
     node.children().filter(Node::is_element)
 }
 
+/// Returns a model text with more elements in a `<custom>`, which no simulator reads.
+pub(super) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
+    let root = parse_model(text)?.root_element().range();
+    let end = text[..root.end].rfind("</").unwrap_or(root.end);
+    Ok(format!("{}<custom>{elements}</custom>\n{}", &text[..end], &text[end..]))
+}
+
 /// Writes an element without content.
 pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
     open(text, tag, attributes);

@@ -15,7 +15,10 @@ const SIMPLE: f64 = 2e-3;
 /// Most corners of a simplified hull: contact queries visit each.
 pub(crate) const CORNERS_MAX: usize = 64;
 
-/// Triangle of a hull; its normal points outwards.
+/// Height of a triangle relative to its longest side up to which rounding decides its normal.
+const SLIVER: f64 = 1e-7;
+
+/// Triangle of a hull; its normal points outwards, or is zero if the triangle is nearly a line, which its neighbours cover.
 struct Face {
     corners: [usize; 3],
     normal: Vector3<f64>,
@@ -26,7 +29,8 @@ struct Face {
 impl Face {
     fn new(points: &[Point3<f64>], corners: [usize; 3]) -> Self {
         let [a, b, c] = corners.map(|corner| points[corner]);
-        let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        let longest = [b - a, c - b, a - c].iter().map(Vector3::norm_squared).fold(0.0, f64::max);
+        let normal = (b - a).cross(&(c - a)).try_normalize(longest * SLIVER).unwrap_or_else(Vector3::zeros);
         Self { corners, normal, offset: normal.dot(&a.coords) }
     }
 

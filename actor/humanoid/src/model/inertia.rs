@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
 use super::geometry::Geometry;
-use super::hull;
+use super::moments::Moments;
 
 /// Default density (kg/m³).
 pub(crate) const WATER_KGPM3: f64 = 1000.0;
@@ -66,8 +66,10 @@ pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProper
             let mass_kg = density_kgpm3 * 4.0 / 3.0 * PI * half_m.product();
             from_principal(&pose, mass_kg, sums_of_squares(&half_m) * (mass_kg / 5.0))
         }
-        Geometry::Hull { ref vertices_m } => of_hull(vertices_m, density_kgpm3)
-            .unwrap_or_else(|| from_principal(&Isometry3::identity(), 0.0, Vector3::zeros())),
+        Geometry::Hull { ref vertices_m } => Moments::of_hull(vertices_m).map_or_else(
+            || from_principal(&Isometry3::identity(), 0.0, Vector3::zeros()),
+            |moments| moments.mass_properties(density_kgpm3),
+        ),
     }
 }
 
@@ -109,36 +111,6 @@ fn of_capsule(from_m: &Point3<f64>, to_m: &Point3<f64>, radius: f64, density_kgp
         centre_m: nalgebra::center(from_m, to_m),
         inertia_kgm2: turn * principal * turn.inverse(),
     }
-}
-
-/// Returns the mass properties of the convex hull of points, of uniform density (kg/m³); `None` if it is flat.
-fn of_hull(points: &[Point3<f64>], density_kgpm3: f64) -> Option<MassProperties> {
-    let faces = hull::faces(points)?;
-    // Sums over the tetrahedra between each face and a point within.
-    let within = points[faces[0][0]];
-    let corners = || faces.iter().map(|face| face.map(|corner| points[corner] - within));
-    let volume = |[a, b, c]: &[Vector3<f64>; 3]| a.dot(&b.cross(c)) / 6.0;
-    let whole: f64 = corners().map(|corners| volume(&corners)).sum();
-    let first: Vector3<f64> =
-        corners().map(|corners| corners.iter().sum::<Vector3<f64>>() * (volume(&corners) / 4.0)).sum();
-    if whole <= 0.0 {
-        return None;
-    }
-    let centre = first / whole;
-    let second: Matrix3<f64> = corners()
-        .map(|corners| {
-            let share = volume(&corners) / 20.0;
-            let sum: Vector3<f64> = corners.iter().sum();
-            let squares: Matrix3<f64> = corners.iter().map(|corner| corner * corner.transpose()).sum();
-            (squares + sum * sum.transpose()) * share
-        })
-        .sum();
-    let about_centre = second - centre * centre.transpose() * whole;
-    Some(MassProperties {
-        mass_kg: whole * density_kgpm3,
-        centre_m: within + centre,
-        inertia_kgm2: (Matrix3::identity() * about_centre.trace() - about_centre) * density_kgpm3,
-    })
 }
 
 #[cfg(test)]
@@ -205,14 +177,16 @@ mod tests {
         let points: Vec<Point3<f64>> = (0..60)
             .map(|index| [f64::from(index % 5) / 2.0, f64::from(index / 5 % 4), 2.0 * f64::from(index / 20)].into())
             .collect();
-        let body = of_hull(&points, 10.0).expect("solid");
+        let body = Moments::of_hull(&points).expect("solid").mass_properties(10.0);
         assert!((body.mass_kg - 240.0).abs() < 1e-9);
         assert!((body.centre_m - Point3::new(1.0, 1.5, 2.0)).norm() < 1e-12);
         let inertia = Matrix3::from_diagonal(&Vector3::new(500.0, 400.0, 260.0));
         assert!((body.inertia_kgm2 - inertia).norm() < 1e-9, "{}", body.inertia_kgm2);
-        let corners = hull::vertices(&points).expect("solid");
+        let corners = super::super::hull::vertices(&points).expect("solid");
         assert_eq!(corners.len(), 8);
-        assert!((of_hull(&corners, 10.0).expect("solid").inertia_kgm2 - inertia).norm() < 1e-9);
+        assert!(
+            (Moments::of_hull(&corners).expect("solid").mass_properties(10.0).inertia_kgm2 - inertia).norm() < 1e-9
+        );
     }
 
     #[test]

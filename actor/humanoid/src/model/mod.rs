@@ -8,6 +8,7 @@ mod ground;
 pub(crate) mod hull;
 pub(crate) mod inertia;
 pub mod mirror;
+pub(crate) mod moments;
 mod pair;
 mod quantity;
 mod robot;

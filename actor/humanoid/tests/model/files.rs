@@ -165,8 +165,66 @@ fn files_that_cannot_be_used_are_named() {
     assert!(problem.contains("mesh `skull`") && problem.contains("neither STL, OBJ nor DAE"), "{problem}");
     let problem = with("sole.OBJ", "gone.obj").expect_err("missing");
     assert!(problem.contains(Path::new("parts").join("gone.obj").to_str().expect("text")), "{problem}");
-    // Without an <inertial> the mass would be that of the faces.
-    let text = with("<inertial pos='0 0 0' mass='3' diaginertia='0.1 0.1 0.1'/>", "").expect("readable");
-    let problem = Model::from_mjcf(&text).expect_err("unknown mass").to_string();
-    assert!(problem.contains("faces of mesh `skull`") && problem.contains("<inertial>"), "{problem}");
+}
+
+#[test]
+fn the_mass_of_a_mesh_file_is_that_of_the_whole_mesh() {
+    let folder = Folder::new("masses");
+    let model = |mesh: &str| {
+        let text = format!(
+            "<mujoco><asset><mesh name='part' {mesh}/></asset><worldbody><body pos='0 0 2'><freejoint/>
+             <geom type='mesh' mesh='part' pos='1 0 0'/></body></worldbody></mujoco>"
+        );
+        folder.write("robot.xml", text);
+        folder.read("robot.xml").map(|text| Model::without_motors(&text).expect("valid"))
+    };
+    // An L of three unit cubes.
+    let outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+    let corners = (0..2).flat_map(|z| outline.map(|[x, y]| format!("v {x} {y} {z}\n")));
+    let ends = [[1, 2, 3], [1, 3, 4], [1, 4, 5], [1, 5, 6]];
+    let ends = ends.iter().flat_map(|[a, b, c]| [[*c, *b, *a], [a + 6, b + 6, c + 6]]);
+    let sides = (1..7).flat_map(|a| [[a, a % 6 + 1, a % 6 + 7], [a, a % 6 + 7, a + 6]]);
+    let faces: Vec<[i32; 3]> = ends.chain(sides).collect();
+    let write = |name: &str, faces: &[[i32; 3]]| {
+        let faces = faces.iter().map(|[a, b, c]| format!("f {a} {b} {c}\n"));
+        folder.write(name, corners.clone().chain(faces).collect::<String>());
+    };
+    write("solid.obj", &faces);
+    write("turned.obj", &faces.iter().map(|[a, b, c]| [*c, *b, *a]).collect::<Vec<_>>());
+    write("open.obj", &[&faces[..1], &faces[2..]].concat());
+    // MuJoCo 4.0's masses (kg), centres (m), and least principal inertias (kg·m²).
+    for (mesh, mass_kg, centre, inertia_kgm2) in [
+        ("file='solid.obj'", 3000.0, [5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        ("file='solid.obj' inertia='exact'", 3000.0, [5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        ("file='solid.obj' inertia='convex'", 3500.0, [0.9048, 0.9048, 0.5], 1103.175),
+        ("file='turned.obj'", 3000.0, [5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        ("file='open.obj' inertia='convex'", 3500.0, [0.9048, 0.9048, 0.5], 1103.175),
+    ] {
+        let model = model(mesh).expect(mesh);
+        let link = &model.links[0];
+        let centre = nalgebra::Point3::from(centre) + nalgebra::Vector3::x();
+        assert!((link.mass_kg - mass_kg).abs() < 1e-3, "{mesh}: {}", link.mass_kg);
+        assert!((link.centre_of_mass_m - centre).norm() < 1e-4, "{mesh}: {}", link.centre_of_mass_m);
+        let least = link.inertia_kgm2.symmetric_eigenvalues().min();
+        assert!((least - inertia_kgm2).abs() < 2e-3, "{mesh}: {least}");
+    }
+    for mesh in ["file='turned.obj' inertia='exact'", "file='open.obj'", "file='open.obj' inertia='exact'"] {
+        let problem = model(mesh).expect_err(mesh);
+        assert!(
+            problem.contains("mesh `part`") && problem.contains("leave holes or are turned inside out"),
+            "{problem}"
+        );
+    }
+
+    // A hull of 64 corners of a ball of 1 m would lack several percent of its mass.
+    let ball = (0..2000).map(|number| {
+        let (z, turn) = (1.0 - (2.0 * f64::from(number) + 1.0) / 2000.0, f64::from(number) * 2.399_963);
+        let across = (1.0 - z * z).sqrt();
+        format!("v {} {} {z}\n", across * turn.cos(), across * turn.sin())
+    });
+    folder.write("ball.obj", ball.chain(["f 1 2 3\n".to_owned()]).collect::<String>());
+    let model = model("file='ball.obj' inertia='convex' scale='1 1 2'").expect("a ball");
+    let share = model.links[0].mass_kg / (4000.0 / 3.0 * std::f64::consts::PI * 2.0);
+    assert!((0.995..1.0).contains(&share), "{share}");
+    assert_eq!(model.bodies[0].shapes.len(), 1);
 }

@@ -47,7 +47,7 @@ pub(in crate::mjcf) fn to_mjcf(document: &Document<'_>, file: &Path, files: &Mod
     let compiler = document.root_element().children().find(|node| node.has_tag_name("mujoco"));
     let compiler = compiler.and_then(|node| node.children().find(|node| node.has_tag_name("compiler")));
     let mut notices = check::unused(document);
-    let tree = tree::Tree::of(&robot, files.holds_slides, &mut notices)?;
+    let tree = tree::LinkTree::of(&robot, files.holds_slides, &mut notices)?;
     let folder = file.parent().unwrap_or(Path::new(""));
     let meshes = meshes::Search {
         folder,

@@ -11,7 +11,7 @@ use crate::error::ModelError;
 const DEPTH_MAX: usize = 80;
 
 /// Links of a robot.
-pub(super) struct Tree<'a> {
+pub(super) struct LinkTree<'a> {
     pub(super) links: BTreeMap<&'a str, &'a Link>,
     /// Joints below each link, in the order of the text.
     pub(super) below: BTreeMap<&'a str, Vec<Branch<'a>>>,
@@ -26,19 +26,19 @@ pub(super) struct Branch<'a> {
     pub(super) joint: &'a Joint,
     /// Pose of the child in its parent with the hinge at zero, or where it is held (m).
     pub(super) pose: Isometry3<f64>,
-    pub(super) motion: Motion,
+    pub(super) motion: JointMotion,
 }
 
 /// What a joint lets its child do.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Motion {
+pub(super) enum JointMotion {
     Held,
     /// Turns about the joint's axis.
     Hinge,
     Free,
 }
 
-impl<'a> Tree<'a> {
+impl<'a> LinkTree<'a> {
     /// Orders the links of a robot, and notes which joints are held still.
     pub(super) fn of(robot: &'a Robot, holds_slides: bool, notices: &mut Vec<String>) -> Result<Self, ModelError> {
         let links: BTreeMap<&str, &Link> = robot.links.iter().map(|link| (link.name.as_str(), link)).collect();
@@ -92,8 +92,8 @@ impl<'a> Tree<'a> {
         let mut has_mass = self.links[link].inertial.mass.value > 0.0;
         for branch in &mut branches {
             let is_heavy = self.hold_massless(&branch.joint.child.link, held);
-            if !is_heavy && branch.motion == Motion::Hinge {
-                branch.motion = Motion::Held;
+            if !is_heavy && branch.motion == JointMotion::Hinge {
+                branch.motion = JointMotion::Held;
                 held.entry("they move no mass").or_default().push(&branch.joint.name);
             }
             has_mass |= is_heavy;
@@ -122,7 +122,7 @@ impl<'a> Tree<'a> {
 
     /// Returns whether a joint lets the robot move freely; only one, directly below the root, may.
     fn check_free(&self, parents: &BTreeMap<&str, &'a Joint>) -> Result<bool, ModelError> {
-        let free = self.below.values().flatten().filter(|branch| branch.motion == Motion::Free);
+        let free = self.below.values().flatten().filter(|branch| branch.motion == JointMotion::Free);
         let mut count = 0;
         for branch in free {
             count += 1;
@@ -144,14 +144,14 @@ impl<'a> Tree<'a> {
 }
 
 /// Returns what a joint lets its child do, the angle at which it is held (rad), and why.
-fn motion(joint: &Joint, holds_slides: bool) -> Result<(Motion, f64, Option<&'static str>), ModelError> {
+fn motion(joint: &Joint, holds_slides: bool) -> Result<(JointMotion, f64, Option<&'static str>), ModelError> {
     let refuse = |problem: &str| Err(ModelError::unsupported(&format!("joint {}", joint.name), problem));
     let limit = &joint.limit;
     Ok(match joint.joint_type {
-        JointType::Fixed => (Motion::Held, 0.0, None),
-        JointType::Floating => (Motion::Free, 0.0, None),
-        JointType::Planar => (Motion::Free, 0.0, Some("its base moves freely, not only in a plane")),
-        JointType::Prismatic if holds_slides => (Motion::Held, 0.0, Some("they slide")),
+        JointType::Fixed => (JointMotion::Held, 0.0, None),
+        JointType::Floating => (JointMotion::Free, 0.0, None),
+        JointType::Planar => (JointMotion::Free, 0.0, Some("its base moves freely, not only in a plane")),
+        JointType::Prismatic if holds_slides => (JointMotion::Held, 0.0, Some("they slide")),
         JointType::Prismatic => {
             return refuse("it slides, which is not simulated; `--hold-slides` holds it still, and all others");
         }
@@ -159,7 +159,7 @@ fn motion(joint: &Joint, holds_slides: bool) -> Result<(Motion, f64, Option<&'st
         JointType::Revolute | JointType::Continuous => {
             if let Some(mimic) = &joint.mimic {
                 // The joint that it follows is at zero.
-                return Ok((Motion::Held, mimic.offset.unwrap_or(0.0), Some("they mimic other joints")));
+                return Ok((JointMotion::Held, mimic.offset.unwrap_or(0.0), Some("they mimic other joints")));
             }
             if joint.joint_type == JointType::Revolute && limit.lower > limit.upper {
                 let problem =
@@ -167,8 +167,8 @@ fn motion(joint: &Joint, holds_slides: bool) -> Result<(Motion, f64, Option<&'st
                 return refuse(&problem);
             }
             match joint.joint_type == JointType::Revolute && limit.lower == limit.upper {
-                true => (Motion::Held, limit.lower, Some("their range is a single angle")),
-                false => (Motion::Hinge, 0.0, None),
+                true => (JointMotion::Held, limit.lower, Some("their range is a single angle")),
+                false => (JointMotion::Hinge, 0.0, None),
             }
         }
     })

@@ -9,7 +9,7 @@ use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
 use super::NOTICE;
 use super::meshes::Search;
-use super::tree::{self, Branch, Motion, Tree};
+use super::tree::{self, Branch, JointMotion, LinkTree};
 use crate::error::ModelError;
 use crate::mjcf::element::Attribute;
 use crate::mjcf::xml;
@@ -23,7 +23,7 @@ const INERTIA_LEAST_KGM2: f64 = 1e-15;
 /// Writes a robot.
 pub(super) fn mjcf(
     robot: &Robot,
-    tree: &Tree<'_>,
+    tree: &LinkTree<'_>,
     search: &Search<'_>,
     compiler: Option<Node<'_, '_>>,
     notices: Vec<String>,
@@ -51,7 +51,7 @@ pub(super) fn root_place(height_m: f64) -> String {
 
 struct Writer<'a> {
     robot: &'a Robot,
-    tree: &'a Tree<'a>,
+    tree: &'a LinkTree<'a>,
     search: &'a Search<'a>,
     bodies: String,
     motors: String,
@@ -94,13 +94,13 @@ impl Writer<'_> {
     fn body(&mut self, branch: &Branch<'_>) -> Result<(), ModelError> {
         let Branch { joint, pose, motion } = branch;
         let child = self.tree.links[joint.child.link.as_str()];
-        if *motion == Motion::Free {
+        if *motion == JointMotion::Free {
             self.open_root(child, pose.rotation);
         } else {
             xml::open(&mut self.bodies, "body", &[vec![attribute("name", &child.name)], place(pose)].concat());
             self.bodies.push('\n');
         }
-        if *motion == Motion::Hinge {
+        if *motion == JointMotion::Hinge {
             self.hinge(joint)?;
         }
         self.content(child)?;
