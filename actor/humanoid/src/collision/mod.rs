@@ -28,6 +28,8 @@ pub(crate) struct Contact<S: Simd> {
     pub(crate) point_m: Vec3<S>,
     /// Unit vector towards the pair's first body.
     pub(crate) normal: Vec3<S>,
+    /// Direction that the first edge of the friction pyramid follows, if any: the axis of a capsule on a plane, as in MuJoCo.
+    pub(crate) along: Option<Vec3<S>>,
     /// Distance between the surfaces (m); negative where they overlap.
     pub(crate) gap_m: Lanes<S>,
 }
@@ -105,12 +107,13 @@ impl<S: Simd> Collisions<S> {
         let normal = Vec3::new(zero, zero, zero.constant(1.0));
         let half = self.halves_m[pair.first];
         let ends = [centre + half, centre - half];
-        for (number, point) in ends[..if shape.half_m.is_some() { 2 } else { 1 }].iter().enumerate() {
+        let along = shape.half_m.map(|half_m| half * zero.constant(1.0 / half_m.norm()));
+        for (number, point) in ends[..if along.is_some() { 2 } else { 1 }].iter().enumerate() {
             let gap_m = height_m + point.z - shape.thickness_m;
             if (gap_m - pair.margin_m).less_than(zero).any() {
                 let down = gap_m * 0.5 + shape.thickness_m;
                 let point_m = Vec3::new(point.x, point.y, point.z - down);
-                self.contacts.push(Contact { key: (key, number as u32), point_m, normal, gap_m });
+                self.contacts.push(Contact { key: (key, number as u32), point_m, normal, along, gap_m });
             }
         }
     }
@@ -174,6 +177,7 @@ impl<S: Simd> Collisions<S> {
                 key: (key, number as u32),
                 point_m: nowhere,
                 normal: vertical,
+                along: None,
                 gap_m: zero.constant(ABSENT_M),
             };
             for (lane, points) in found.iter().enumerate().filter(|(lane, _)| number < counts[*lane]) {

@@ -1,6 +1,7 @@
 //! URDF files.
 
 use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
 use treadmill_humanoid::model::Geometry;
 use treadmill_humanoid::{EnvironmentConfig, Model, ModelFiles, Physics};
 
@@ -258,4 +259,20 @@ fn collada_files_have_their_unit() {
     let model = Model::from_mjcf(&folder.read("robot.urdf").expect("a robot")).expect("valid");
     // Half of the height, 3 cm, below a centre that is 0.55 m below the pelvis.
     assert!((model.nominal_position()[2] - 0.58).abs() < 1e-6, "{:?}", model.nominal_position());
+}
+
+proptest! {
+    #[test]
+    fn changed_texts_are_read_or_refused(
+        cuts in prop::collection::vec((0..ROBOT.len(), 0..40_usize, "[-0-9a-z<>/\"= .]{0,3}"), 1..4)
+    ) {
+        let mut changed = ROBOT.to_owned();
+        for (start, length, with) in cuts {
+            let (start, end) = (start.min(changed.len()), (start + length).min(changed.len()));
+            changed.replace_range(start..end, &with);
+        }
+        if let Ok(text) = text(&changed) {
+            prop_assert!(Model::without_motors(&text).is_ok(), "{}", text);
+        }
+    }
 }

@@ -16,6 +16,9 @@ const FRICTION_MIN: f64 = 1e-5;
 /// precision would turn rounding errors of accelerations into forces.
 const STIFF_FRICTION_MIN: f64 = 0.01;
 
+/// Least square of a direction's share in the plane of contact, so that its angle is not rounding.
+const ALONG_MIN: f64 = 1e-6;
+
 /// Contact of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactConstraint<S: Simd> {
@@ -126,7 +129,7 @@ impl<S: Simd> ContactConstraint<S> {
         warm: &[Lanes<S>; EDGES],
         step_s: f64,
     ) -> Self {
-        let frame = frame(&contact.normal);
+        let frame = frame(&contact.normal, contact.along.as_ref());
         let start = rows.numbers.len();
         rows.push(structure, posture, whitening, pair, &contact.point_m, &frame);
         let zero = contact.gap_m.constant(0.0);
@@ -196,13 +199,19 @@ impl<S: Simd> ContactConstraint<S> {
     }
 }
 
-/// Returns the normal and two tangents, those of MuJoCo's `mju_makeFrame`.
+/// Returns the normal and two tangents, those of MuJoCo's `mju_makeFrame`. The first is `along`, as far as that is a tangent.
 #[inline(always)]
-fn frame<S: Simd>(normal: &Vec3<S>) -> [Vec3<S>; 3] {
+fn frame<S: Simd>(normal: &Vec3<S>, along: Option<&Vec3<S>>) -> [Vec3<S>; 3] {
     let (zero, one) = (normal.x.constant(0.0), normal.x.constant(1.0));
+    let tangent = |along: &Vec3<S>| *along - *normal * normal.dot(along);
     let flat = normal.y.abs().less_than(one.constant(0.5));
-    let along = Vec3::new(zero, flat.select(one, zero), flat.select(zero, one));
-    let across = along - *normal * normal.dot(&along);
+    let mut across = tangent(&Vec3::new(zero, flat.select(one, zero), flat.select(zero, one)));
+    if let Some(along) = along.map(tangent) {
+        // An upright capsule has no direction in the plane.
+        let lies = one.constant(ALONG_MIN).less_than(along.dot(&along));
+        let choose = |one: Lanes<S>, other: Lanes<S>| lies.select(one, other);
+        across = Vec3::new(choose(along.x, across.x), choose(along.y, across.y), choose(along.z, across.z));
+    }
     let first = across * (one / across.dot(&across).sqrt());
     [*normal, first, normal.cross(&first)]
 }
