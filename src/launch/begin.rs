@@ -119,6 +119,7 @@ fn branch_off(
     let (prefix, origin) = (format!("{}-fork", fork.state.run), Some(fork.origin.clone()));
     settings::choose(&mut config.ppo, fork.state.ppo.networks());
     let mut state = fork.with_config(&config, new)?;
+    model::check_flags(any.model.as_deref(), &any.model_file)?;
     if !config.is_external() {
         if let Some(file) = &any.model {
             model::check_same(&config, &state.model_xml, file, &any.model_file)?;

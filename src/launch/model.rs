@@ -64,12 +64,18 @@ pub fn completed(config: &Config, file: Option<&Path>, files: &ModelFileArgs) ->
     }
 }
 
+/// Refuses flags about a model file where none is given.
+pub fn check_flags(file: Option<&Path>, files: &ModelFileArgs) -> Result<(), Usage> {
+    match files.given().filter(|_| file.is_none()) {
+        Some(flag) => Err(Usage(format!("{flag} has no effect without --model"))),
+        None => Ok(()),
+    }
+}
+
 /// Returns the text of a model file, or by default of the built-in humanoid.
 pub fn text(file: Option<&Path>, files: &ModelFileArgs) -> Result<Cow<'static, str>, Usage> {
+    check_flags(file, files)?;
     match file {
-        None if files.given().is_some() => {
-            Err(Usage(format!("{} has no effect without --model", files.given().unwrap_or_default())))
-        }
         None => Ok(Cow::Borrowed(HUMANOID_XML)),
         Some(path) => Ok(Cow::Owned(read_model_file(path, &files.files()).map_err(|why| {
             let near = (!path.exists()).then(|| nearest_path(path)).flatten();

@@ -70,6 +70,7 @@ pub fn go_on(
     if !config.is_external() {
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
     }
+    model::check_flags(any.model.as_deref(), &any.model_file)?;
     if let Some(file) = &any.model {
         model::check_same(&config, &state.model_xml, file, &any.model_file)?;
     }

@@ -217,5 +217,14 @@ fn a_urdf_trains_and_its_run_needs_no_file() {
     let text = fs::read_to_string(run.join("model.xml")).unwrap();
     assert!(text.contains("vertex=") && !text.contains("foot.obj"), "{text}");
     done(at, &["eval", run.to_str().unwrap(), "--episodes", "1"]);
+    let path = run.to_str().unwrap();
+    for args in [
+        &["train", "--steps", "4096", "--resume", path][..],
+        &["train", "--steps", "4096", "--fork", path],
+        &["eval", path],
+    ] {
+        let refused = self::run(at, &[args, &["--hold-slides"]].concat());
+        assert_refused(&refused, 2, &["--hold-slides has no effect without --model"]);
+    }
     done(at, &["train", "--resume", run.to_str().unwrap(), "--steps", "2048"]);
 }

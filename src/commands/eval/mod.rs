@@ -199,6 +199,7 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
     let _step = SlowStepNotice::begin(format!("loading the policy of {run}"));
     let SavedPolicy { policy, config, origin, .. } = saved_policy::load(run, args.checkpoint)?;
     let config = configuration(args, config)?;
+    model::check_flags(args.model.model.as_deref(), &args.model.file)?;
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(tasks, run, &policy, &config)?,
         Some(file) => {

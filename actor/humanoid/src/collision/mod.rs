@@ -28,7 +28,7 @@ pub(crate) struct Contact<S: Simd> {
     pub(crate) point_m: Vec3<S>,
     /// Unit vector towards the pair's first body.
     pub(crate) normal: Vec3<S>,
-    /// Direction that the first edge of the friction pyramid follows, if any: the axis of a capsule on a plane, as in MuJoCo.
+    /// Direction that the first edge of the friction pyramid follows: as in MuJoCo, the axis of a capsule on a plane.
     pub(crate) along: Option<Vec3<S>>,
     /// Distance between the surfaces (m); negative where they overlap.
     pub(crate) gap_m: Lanes<S>,

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::defaults::Classes;
@@ -20,7 +20,7 @@ pub(super) struct Assets {
     /// Meshes with vertices in the text.
     meshes: BTreeMap<String, Mesh>,
     height_fields: BTreeMap<String, Element>,
-    /// Moments of mesh files, in the frame of the file.
+    /// Moments of mesh files, in the frame of the geom.
     of_files: BTreeMap<String, Moments>,
 }
 
@@ -29,15 +29,18 @@ struct Mesh {
     vertices: Vec<Point3<f64>>,
     /// Corners of its convex hull, once a geom needs them.
     hull: OnceCell<Option<Vec<Point3<f64>>>>,
-    /// Motion from the vertices of the text to those in the frame of the geom.
-    linear: Matrix3<f64>,
-    shift_m: Vector3<f64>,
-    /// Moments by the faces in the text, in the frame of the geom.
-    moments: Option<Moments>,
+    /// Element, and its triangles in the text, if any.
+    element: Element,
+    faces: Vec<[usize; 3]>,
 }
 
 /// Beginning of the name of a `<numeric>` with the moments of a mesh file.
 pub(super) const MOMENTS: &str = "treadmill_moments_";
+
+/// Returns whether a node has the moments of a mesh file.
+pub(super) fn is_moments(node: &Node<'_, '_>) -> bool {
+    node.attribute("name").is_some_and(|name| name.starts_with(MOMENTS))
+}
 
 impl Assets {
     /// Reads a `<mesh>` or a `<hfield>`. A mesh without vertices is ignored: a geom that needs it is refused.
@@ -86,10 +89,15 @@ impl Assets {
     }
 
     /// Returns the moments of a mesh in the frame of its geom; `None` if they are those of its hull.
-    pub(super) fn moments(&self, name: &str) -> Option<Moments> {
-        let mesh = self.meshes.get(name)?;
-        let of_file = self.of_files.get(name).map(|moments| moments.transformed(&mesh.linear, &mesh.shift_m));
-        of_file.or(mesh.moments)
+    pub(super) fn moments(&self, name: &str) -> Result<Option<Moments>, ModelError> {
+        let of_text = |mesh: &Mesh| match mesh.faces.is_empty() || mesh.element.get("inertia") == Some("convex") {
+            true => Ok(None),
+            false => moments(&mesh.element, &vertices(&mesh.element), &mesh.faces).map(Some),
+        };
+        match self.of_files.get(name) {
+            Some(moments) => Ok(Some(*moments)),
+            None => self.meshes.get(name).map_or(Ok(None), of_text),
+        }
     }
 
     /// Returns the height field of a level geom at `centre_m`.
@@ -141,50 +149,62 @@ fn read_mesh(mesh: &Element) -> Result<Mesh, ModelError> {
         let problem = format!("`vertex` has {} numbers, but needs three for each vertex", given.len());
         return Err(mesh.refused(problem));
     }
-    let [w, x, y, z] = mesh.list_over("refquat", [1.0, 0.0, 0.0, 0.0]);
-    let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
-        .ok_or_else(|| mesh.refused("`refquat` must not be zero"))?;
-    let place = Vector3::from(mesh.list_over("refpos", [0.0; 3]));
-    let reference = Isometry3::from_parts(place.into(), turn);
-    let scale = Vector3::from(mesh.list_over("scale", [1.0; 3]));
-    let linear = Matrix3::from_diagonal(&scale) * turn.inverse().to_rotation_matrix();
-    let shift_m = -(linear * reference.translation.vector);
-    let placed = |vertex: &[f64]| Point3::from(linear * Vector3::from_column_slice(vertex) + shift_m);
-    let vertices: Vec<Point3<f64>> = given.chunks_exact(3).map(placed).collect();
+    let (linear, shift_m) = placement(mesh)?;
+    let placed = |vertex: &Point3<f64>| Point3::from(linear * vertex.coords + shift_m);
+    let vertices: Vec<Point3<f64>> = vertices(mesh).iter().map(placed).collect();
     if !vertices.iter().flat_map(|vertex| vertex.iter()).all(|entry| entry.abs() < 1e6) {
         return Err(mesh.refused("its vertices are more than 1000 km away; check `scale`"));
     }
-    let moments = match mesh.list("face").filter(|_| mesh.get("inertia") != Some("convex")) {
-        None => None,
-        Some(numbers) => {
-            let corner = |number: &f64| Some(*number as usize).filter(|corner| *corner < vertices.len());
-            let corners = numbers.iter().map(corner).collect::<Option<Vec<usize>>>();
-            let faces = corners.filter(|corners| corners.len().is_multiple_of(3)).ok_or_else(|| {
-                mesh.refused(format!("`face` must be three indices below {} for each triangle", vertices.len()))
-            })?;
-            Some(moments(&mesh.label, mesh.get("inertia"), &vertices, faces.as_chunks().0)?)
-        }
-    };
-    Ok(Mesh { vertices, hull: OnceCell::new(), linear, shift_m, moments })
+    let corner = |number: &f64| Some(*number as usize).filter(|corner| *corner < vertices.len());
+    let corners = mesh.list("face").unwrap_or_default().iter().map(corner).collect::<Option<Vec<usize>>>();
+    let corners = corners.filter(|corners| corners.len().is_multiple_of(3)).ok_or_else(|| {
+        mesh.refused(format!("`face` must be three indices below {} for each triangle", vertices.len()))
+    })?;
+    Ok(Mesh { vertices, hull: OnceCell::new(), element: mesh.clone(), faces: corners.as_chunks().0.to_vec() })
 }
 
-/// Returns the moments of a mesh by its `inertia`.
-pub(super) fn moments(
-    label: &str,
-    inertia: Option<&str>,
-    points: &[Point3<f64>],
-    faces: &[[usize; 3]],
-) -> Result<Moments, ModelError> {
-    let found = match inertia {
-        Some("convex") => Moments::of_hull(points),
-        _ if points.iter().flat_map(|point| point.iter()).any(|entry| !entry.is_finite()) => None,
-        Some("exact") => is_closed(points, faces, Sum::Signed).then(|| Moments::of_faces(points, faces, Sum::Signed)),
-        _ => is_closed(points, faces, Sum::Absolute).then(|| Moments::of_faces(points, faces, Sum::Absolute)),
+/// Returns the vertices in the text, in the frame of the text.
+fn vertices(mesh: &Element) -> Vec<Point3<f64>> {
+    mesh.list("vertex")
+        .unwrap_or_default()
+        .as_chunks()
+        .0
+        .iter()
+        .map(|vertex: &[f64; 3]| Point3::from(*vertex))
+        .collect()
+}
+
+/// Returns the motion from the frame of a text or file to that of the geom: `x → linear x + shift`.
+fn placement(mesh: &Element) -> Result<(Matrix3<f64>, Vector3<f64>), ModelError> {
+    let [w, x, y, z] = mesh.list_over("refquat", [1.0, 0.0, 0.0, 0.0]);
+    let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
+        .ok_or_else(|| mesh.refused("`refquat` must not be zero"))?;
+    let scale = Vector3::from(mesh.list_over("scale", [1.0; 3]));
+    let linear = Matrix3::from_diagonal(&scale) * turn.inverse().to_rotation_matrix();
+    Ok((linear, -(linear * Vector3::from(mesh.list_over("refpos", [0.0; 3])))))
+}
+
+/// Returns the moments of a mesh by its `inertia`, in the frame of its geom; `points` are in that of its text or file.
+pub(super) fn moments(mesh: &Element, points: &[Point3<f64>], faces: &[[usize; 3]]) -> Result<Moments, ModelError> {
+    let (linear, shift_m) = placement(mesh)?;
+    let placed: Vec<Point3<f64>> = points.iter().map(|point| Point3::from(linear * point.coords + shift_m)).collect();
+    // A mirror image has its faces inside out.
+    let is_mirrored = linear.determinant() < 0.0;
+    let turned = |[a, b, c]: &[usize; 3]| if is_mirrored { [*c, *b, *a] } else { [*a, *b, *c] };
+    let faces: Vec<[usize; 3]> = faces.iter().map(turned).collect();
+    let found = match mesh.get("inertia") {
+        Some("convex") => Moments::of_hull(&placed),
+        _ if placed.iter().flat_map(|point| point.iter()).any(|entry| !entry.is_finite()) => None,
+        kind => {
+            let sum = if kind == Some("exact") { Sum::Signed } else { Sum::Absolute };
+            is_closed(points, &faces, sum).then(|| Moments::of_faces(&placed, &faces, sum))
+        }
     };
     found.filter(|moments| moments.volume() > 0.0).ok_or_else(|| {
-        let problem = "its mass is unknown, because its faces leave holes or are turned inside out; set inertia=\"convex\" in \
-                       <mesh>, or give the body an <inertial>";
-        ModelError::unsupported(label, problem)
+        mesh.refused(
+            "its mass is unknown, because its faces leave holes or are turned inside out; set inertia=\"convex\" in <mesh>, \
+             or give the body an <inertial>",
+        )
     })
 }
 
@@ -192,9 +212,12 @@ pub(super) fn moments(
 fn is_closed(points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> bool {
     // Faces along each edge in its two directions.
     let mut edges: BTreeMap<[[u64; 3]; 2], [u32; 2]> = BTreeMap::new();
-    // Files repeat a vertex for every triangle.
-    let key = |corner: usize| [0, 1, 2].map(|axis| points[corner][axis].to_bits());
+    // Files repeat a vertex for every triangle, and may write 0 as −0.
+    let key = |corner: usize| [0, 1, 2].map(|axis| (points[corner][axis] + 0.0).to_bits());
     for [a, b, c] in faces {
+        if key(*a) == key(*b) || key(*b) == key(*c) || key(*c) == key(*a) {
+            continue;
+        }
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let (from, to) = (key(*from), key(*to));
             let is_ascending = from < to;

@@ -163,6 +163,12 @@ impl Defaults {
             ("general", "velocity") => vec![("kv", gain("gainprm").map(|gain| gain.to_string()))],
             _ => Vec::new(),
         };
+        // Those that only a position servo may have are refused by name where a general one inherits them.
+        let of_servo =
+            ["inheritrange", "timeconst"].into_iter().filter(|name| gain(name).is_some_and(|value| value != 0.0));
+        if [&self.tag, tag].iter().all(|kind| ["position", "general"].contains(kind)) {
+            found.extend(of_servo.map(|name| (name.to_owned(), under.text(name))));
+        }
         found.extend(gains.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))));
         found
     }

@@ -13,7 +13,7 @@ use roxmltree::{Document, Node};
 use super::assets::{self, MOMENTS};
 use super::card_text::with_card;
 use super::defaults::Classes;
-use super::element::{Attribute, Element};
+use super::element::{self, Attribute, Element};
 use super::files::{self, AssetFiles};
 use super::urdf::{self, ModelFiles};
 use super::xml::{self, elements, sections};
@@ -41,7 +41,7 @@ pub fn read_model_file(path: &Path, files: &ModelFiles) -> Result<String, ModelE
     let text = files::text_with_includes(&model)?;
     let document = xml::parse(&text)?;
     let embedded = if urdf::is_urdf(&document) {
-        let text = urdf::to_mjcf(&document, &model, files)?;
+        let text = urdf::to_mjcf(&document, &model, files, false)?;
         on_ground(&embed(&xml::parse(&text)?, folder)?)?
     } else if document.descendants().any(|node| node.has_attribute("file")) {
         embed(&document, folder)?
@@ -94,17 +94,23 @@ type Needs = BTreeMap<(&'static str, String), bool>;
 
 /// Returns the meshes that collide or give mass, and the height fields.
 fn wanted(root: Node<'_, '_>, classes: &Classes) -> Result<Needs, ModelError> {
+    let setting = |name: &str| sections(root, "compiler").filter_map(|compiler| compiler.attribute(name)).last();
+    let groups = setting("inertiagrouprange").and_then(element::numbers).filter(|groups| groups.len() == 2);
+    let groups = groups.map_or(0.0..=5.0, |groups| groups[0]..=groups[1]);
+    let from_geoms = setting("inertiafromgeom");
     let pairs = sections(root, "contact").flat_map(elements);
     let paired: BTreeSet<&str> =
         pairs.flat_map(|pair| [pair.attribute("geom1"), pair.attribute("geom2")]).flatten().collect();
     let mut found = Needs::new();
     for world in sections(root, "worldbody") {
-        collect_needs(world, None, true, &mut |geom, class, has_inertia| {
+        collect_needs(world, None, false, from_geoms, &mut |geom, class, counts| {
             let element = classes.with_defaults(geom, class, geom.attribute("name").unwrap_or("geom"))?;
             let is_zero = |name: &str| element.number(name).is_some_and(|value| value == 0.0);
             let is_paired = geom.attribute("name").is_some_and(|name| paired.contains(name));
             let collides = is_paired || !(is_zero("contype") && is_zero("conaffinity"));
-            let is_mass = !(has_inertia || is_zero("mass") || (element.get("mass").is_none() && is_zero("density")));
+            let is_counted = counts && groups.contains(&element.number("group").unwrap_or(0.0));
+            let is_weightless = is_zero("mass") || (element.get("mass").is_none() && is_zero("density"));
+            let is_mass = is_counted && !is_weightless;
             for (tag, is_needed) in [("mesh", collides || is_mass), ("hfield", collides)] {
                 if let Some(asset) = element.get(tag).filter(|_| is_needed) {
                     *found.entry((tag, asset.to_owned())).or_default() |= is_mass;
@@ -116,22 +122,28 @@ fn wanted(root: Node<'_, '_>, classes: &Classes) -> Result<Needs, ModelError> {
     Ok(found)
 }
 
-/// Visits every geom below a node with its class; `has_inertia` is whether the geom's mass is given or irrelevant.
+/// Visits every geom below a node with its class, and with whether it may count for a mass; `counts` is that of the node's
+/// own geoms, and `from_geoms` the compiler's `inertiafromgeom`.
 fn collect_needs<'a>(
     node: Node<'a, '_>,
     class: Option<&'a str>,
-    has_inertia: bool,
+    counts: bool,
+    from_geoms: Option<&str>,
     visit: &mut impl FnMut(Node<'_, '_>, Option<&str>, bool) -> Result<(), ModelError>,
 ) -> Result<(), ModelError> {
     for child in elements(node) {
         let class_within = child.attribute("childclass").or(class);
         match child.tag_name().name() {
-            "geom" => visit(child, class, has_inertia)?,
+            "geom" => visit(child, class, counts)?,
             "body" => {
-                let has_inertia = elements(child).any(|part| part.has_tag_name("inertial"));
-                collect_needs(child, class_within, has_inertia, visit)?;
+                let counts = match from_geoms {
+                    Some("true") => true,
+                    Some("false") => false,
+                    _ => !elements(child).any(|part| part.has_tag_name("inertial")),
+                };
+                collect_needs(child, class_within, counts, from_geoms, visit)?;
             }
-            "frame" => collect_needs(child, class_within, has_inertia, visit)?,
+            "frame" => collect_needs(child, class_within, counts, from_geoms, visit)?,
             _ => {}
         }
     }
@@ -167,7 +179,8 @@ fn mesh(asset: &Element, path: &Path) -> Result<Vec<Attribute>, ModelError> {
 fn moments(asset: &Element, path: &Path) -> Result<Moments, ModelError> {
     let (vertices, faces) = files::triangles(&asset.label, path)?;
     let points: Vec<Point3<f64>> = vertices.into_iter().map(|vertex| Point3::from(vertex.map(f64::from))).collect();
-    assets::moments(&format!("mesh `{}`", asset.label), asset.get("inertia"), &points, &faces)
+    let labelled = Element { label: format!("mesh `{}`", asset.label), ..asset.clone() };
+    assets::moments(&labelled, &points, &faces)
 }
 
 /// Returns the heights of a grey PNG file as attributes; its first row is that of the greatest y.

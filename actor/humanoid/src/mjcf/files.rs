@@ -1,7 +1,9 @@
 //! Files that a model names: reading with bounds, included texts, and the assets with their paths.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read};
+use std::panic;
 use std::path::{Path, PathBuf};
 
 use mesh_loader::{Loader, Scene};
@@ -152,13 +154,38 @@ pub(super) fn read_mesh(name: &str, path: &Path) -> Result<Scene, ModelError> {
         // The loader takes a header that begins like a text for one.
         bytes[..STL_HEADER].fill(0);
     }
-    Loader::default().load_from_slice(&bytes, path).map_err(|why| {
+    let refuse = |why: String| {
         ModelError::unsupported(&format!("mesh `{name}`"), format!("`{}` cannot be read: {why}", path.display()))
-    })
+    };
+    if has_extension(path, &["dae"]) {
+        check_collada(&bytes).map_err(refuse)?;
+    }
+    // The loader indexes what a COLLADA file says without a check.
+    let loaded = panic::catch_unwind(|| Loader::default().load_from_slice(&bytes, path));
+    loaded.map_err(|_| refuse("its indices and arrays do not fit".to_owned()))?.map_err(|why| refuse(why.to_string()))
 }
 
-/// Returns vertices and triangles of a mesh file. As in MuJoCo, the vertices of an OBJ file count whether a face names them or
-/// not, by their first three numbers.
+/// Refuses COLLADA files of which the loader would leave out a part.
+fn check_collada(bytes: &[u8]) -> Result<(), String> {
+    let text = std::str::from_utf8(bytes).map_err(|why| why.to_string())?;
+    let document = Document::parse(text).map_err(|why| why.to_string())?;
+    let mut placed = BTreeSet::new();
+    for node in document.descendants().filter(Node::is_element) {
+        match node.tag_name().name() {
+            tag @ ("instance_node" | "instance_controller") => {
+                return Err(format!("<{tag}> is not read; convert it to STL"));
+            }
+            "instance_geometry" if !placed.insert(node.attribute("url")) => {
+                return Err("it places a geometry twice; convert it to STL".to_owned());
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Returns vertices and triangles of a mesh file. As in MuJoCo, the vertices of an OBJ file count whether a face names them
+/// or not, by their first three numbers.
 pub(super) fn triangles(name: &str, path: &Path) -> Result<(Vec<[f32; 3]>, Vec<[usize; 3]>), ModelError> {
     let scene = read_mesh(name, path)?;
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());

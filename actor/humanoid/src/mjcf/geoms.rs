@@ -52,9 +52,12 @@ pub(super) fn read(
         }
         return Err(geom.refused(format!("the mass of {} is unknown; give the body an <inertial>", describe(geom))));
     };
+    let of_mesh = match mesh.filter(|_| kind(geom) == "mesh" && !weightless) {
+        Some(mesh) => assets.moments(mesh)?,
+        None => None,
+    };
     let mass = (!weightless).then(|| {
         // A density of 1 kg/m³ gives the volume.
-        let of_mesh = mesh.filter(|_| kind(geom) == "mesh").and_then(|mesh| assets.moments(mesh));
         let unit = of_mesh.map_or_else(
             || inertia::of_geometry(&geometry, 1.0),
             |moments| {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
-use super::assets::Assets;
+use super::assets::{self, Assets};
 use super::card_text;
 use super::defaults::{ACTUATORS, Classes};
 use super::element::Element;
@@ -143,7 +143,9 @@ pub(super) fn ignored(root: Node<'_, '_>) -> BTreeMap<String, usize> {
             let tag = child.tag_name().name();
             match is_inert(tag) {
                 true if matches!(tag, "sensor" | "custom") => {
-                    let within = elements(child).filter(|text| !card_text::is_card(text) && !urdf::is_notice(text));
+                    let within = elements(child).filter(|part| {
+                        !card_text::is_card(part) && !urdf::is_notice(part) && !assets::is_moments(part)
+                    });
                     let count = within.count();
                     if count > 0 {
                         *found.entry(tag.to_owned()).or_default() += count;

@@ -39,7 +39,7 @@ pub fn visual_meshes(path: &Path, files: &ModelFiles) -> Result<Vec<VisualMesh>,
     let mut text = files::text_with_includes(&path)?;
     let document = xml::parse(&text)?;
     if urdf::is_urdf(&document) {
-        text = urdf::to_mjcf(&document, &path, files)?;
+        text = urdf::to_mjcf(&document, &path, files, true)?;
     }
     let document = xml::parse(&text)?;
     let files = AssetFiles::of(&document, files::folder_of(&path))?;

@@ -46,7 +46,7 @@ pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item =
     node.children().filter(Node::is_element)
 }
 
-/// Returns a model text with more elements in a `<custom>`, which no simulator reads.
+/// Returns a model text with more elements in a `<custom>`, which MuJoCo ignores.
 pub(super) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
     let root = parse_model(text)?.root_element().range();
     let end = text[..root.end].rfind("</").unwrap_or(root.end);

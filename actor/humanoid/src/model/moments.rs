@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::hull;
 use super::inertia::MassProperties;
 
-/// Moments about the origin. They belong to a mesh as its file has it, so that no other machine needs the triangles.
+/// Moments about the origin of a mesh's geom. With them no other machine needs the triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Moments {
     /// Volume (m³).
@@ -31,18 +31,30 @@ impl Moments {
         Some(Self::of_faces(points, &hull::faces(points)?, Sum::Signed)).filter(|found| found.volume > 0.0)
     }
 
-    /// Returns the sums over the tetrahedra between each face and the centre of all faces by their areas, as MuJoCo has it.
+    /// Returns the sums over the tetrahedra between each face and a point inside: the centre of all faces by their areas.
+    /// As in MuJoCo, absolute sums take only the centre of mass from that point, and are then made again about this centre.
     pub(crate) fn of_faces(points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> Self {
-        let corners = || faces.iter().map(|face| face.map(|corner| points[corner].coords));
         let (mut area, mut centre) = (0.0, Vector3::zeros());
-        for [a, b, c] in corners() {
+        for [a, b, c] in faces.iter().map(|face| face.map(|corner| points[corner].coords)) {
             let of_face = (b - a).cross(&(c - a)).norm();
             area += of_face;
             centre += (a + b + c) * (of_face / 3.0);
         }
         let centre = if area > 0.0 { centre / area } else { centre };
-        let about_centre = corners().fold(Self::default(), |mut moments, face| {
-            let [a, b, c] = face.map(|corner| corner - centre);
+        let about_centre = Self::about(&centre, points, faces, sum);
+        let whole = about_centre.transformed(&Matrix3::identity(), &centre);
+        if sum == Sum::Signed || about_centre.volume == 0.0 {
+            return whole;
+        }
+        let centre = whole.first / whole.volume;
+        let about_mass = Self { first: Vector3::zeros(), ..Self::about(&centre, points, faces, sum) };
+        about_mass.transformed(&Matrix3::identity(), &centre)
+    }
+
+    /// Returns the sums over the tetrahedra between each face and `inside`, about that point.
+    fn about(inside: &Vector3<f64>, points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> Self {
+        faces.iter().fold(Self::default(), |mut moments, face| {
+            let [a, b, c] = face.map(|corner| points[corner].coords - inside);
             let signed = a.dot(&b.cross(&c)) / 6.0;
             let volume = if sum == Sum::Signed { signed } else { signed.abs() };
             let total = a + b + c;
@@ -51,8 +63,7 @@ impl Moments {
             let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
             moments.second += (squares + total * total.transpose()) * (volume / 20.0);
             moments
-        });
-        about_centre.transformed(&Matrix3::identity(), &centre)
+        })
     }
 
     /// Returns the moments of the solid after the motion `x → linear x + shift`.

@@ -190,6 +190,13 @@ fn the_mass_of_a_mesh_file_is_that_of_the_whole_mesh() {
         folder.write(name, corners.clone().chain(faces).collect::<String>());
     };
     write("solid.obj", &faces);
+    let outline = [[0, 0], [4, 0], [4, 3], [3, 3], [3, 1], [1, 1], [1, 3], [0, 3]];
+    let corners_of_arms = (0..2).flat_map(|z| outline.map(|[x, y]| format!("v {x} {y} {z}\n")));
+    let ends = [[1, 2, 5], [1, 5, 6], [2, 3, 4], [2, 4, 5], [1, 6, 7], [1, 7, 8]];
+    let ends = ends.iter().flat_map(|[a, b, c]| [[*c, *b, *a], [a + 8, b + 8, c + 8]]);
+    let sides = (1..9).flat_map(|a| [[a, a % 8 + 1, a % 8 + 9], [a, a % 8 + 9, a + 8]]);
+    let faces_of_arms = ends.chain(sides).map(|[a, b, c]| format!("f {a} {b} {c}\n"));
+    folder.write("arms.obj", corners_of_arms.chain(faces_of_arms).collect::<String>());
     write("turned.obj", &faces.iter().map(|[a, b, c]| [*c, *b, *a]).collect::<Vec<_>>());
     write("open.obj", &[&faces[..1], &faces[2..]].concat());
     // MuJoCo 4.0's masses (kg), centres (m), and least principal inertias (kg·m²).
@@ -198,15 +205,20 @@ fn the_mass_of_a_mesh_file_is_that_of_the_whole_mesh() {
         ("file='solid.obj' inertia='exact'", 3000.0, [5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
         ("file='solid.obj' inertia='convex'", 3500.0, [0.9048, 0.9048, 0.5], 1103.175),
         ("file='turned.obj'", 3000.0, [5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        ("file='solid.obj' scale='-1 1 1'", 3000.0, [-5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        ("file='solid.obj' scale='-1 1 1' inertia='exact'", 3000.0, [-5.0 / 6.0, 5.0 / 6.0, 0.5], 833.333),
+        // A U, whose centre does not see all of its faces.
+        ("file='arms.obj'", 11_177.336_659, [2.0, 1.383_002, 0.5], 8_321.094_671),
+        ("file='arms.obj' scale='6 1 1'", 67_034.426_381, [12.0, 1.379_303, 0.5], 49_914.727_537),
         ("file='open.obj' inertia='convex'", 3500.0, [0.9048, 0.9048, 0.5], 1103.175),
     ] {
         let model = model(mesh).expect(mesh);
         let link = &model.links[0];
         let centre = nalgebra::Point3::from(centre) + nalgebra::Vector3::x();
-        assert!((link.mass_kg - mass_kg).abs() < 1e-3, "{mesh}: {}", link.mass_kg);
+        assert!((link.mass_kg / mass_kg - 1.0).abs() < 1e-6, "{mesh}: {}", link.mass_kg);
         assert!((link.centre_of_mass_m - centre).norm() < 1e-4, "{mesh}: {}", link.centre_of_mass_m);
         let least = link.inertia_kgm2.symmetric_eigenvalues().min();
-        assert!((least - inertia_kgm2).abs() < 2e-3, "{mesh}: {least}");
+        assert!((least / inertia_kgm2 - 1.0).abs() < 2e-6, "{mesh}: {least}");
     }
     for mesh in ["file='turned.obj' inertia='exact'", "file='open.obj'", "file='open.obj' inertia='exact'"] {
         let problem = model(mesh).expect_err(mesh);
@@ -215,6 +227,18 @@ fn the_mass_of_a_mesh_file_is_that_of_the_whole_mesh() {
             "{problem}"
         );
     }
+
+    // Where it gives no mass, a mesh may have holes.
+    folder.write(
+        "robot.xml",
+        "<mujoco><compiler inertiafromgeom='false'/><asset><mesh name='part' file='open.obj'/></asset><worldbody>
+         <body pos='0 0 2'><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/><geom type='mesh' mesh='part'/>
+         <body><geom type='mesh' mesh='part'/></body></body></worldbody></mujoco>",
+    );
+    assert_eq!(
+        Model::without_motors(&folder.read("robot.xml").expect("readable")).expect("valid").links[0].mass_kg,
+        1.0
+    );
 
     // A hull of 64 corners of a ball of 1 m would lack several percent of its mass.
     let ball = (0..2000).map(|number| {

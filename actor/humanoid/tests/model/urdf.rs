@@ -190,10 +190,17 @@ fn faults_are_named_with_their_remedy() {
         ),
         ("<mass value=\"10\"/>", "", "link pelvis`: its <inertial> has no <mass>"),
         ("type=\"continuous\"", "type=\"spherical\"", "joint knee`: ball joints"),
-        ("type=\"continuous\"", "type=\"screw\"", "screw"),
+        ("type=\"continuous\"", "type=\"screw\"", "joint knee`: `type` is \"screw\""),
+        ("<child link=\"foot\"/>", "<child/>", "joint knee`: its <child> has no `link`"),
+        ("<robot name", "<robot version=\"1.2\" name", "joint hip`: its <limit> has one side only"),
+        ("<axis xyz=\"0 2 0\"/>", "<origin quat_xyzw=\"0 0 1 0\"/>", "joint hip`: `quat_xyzw` is of version 1.1"),
         ("name=\"mount\"", "", "a <joint> of the URDF has no `name`"),
     ] {
-        let found = text(&with(from, to)).expect_err(to);
+        let mut changed = with(from, to);
+        if to.contains("version") {
+            changed = changed.replace("upper=\"2\"", "");
+        }
+        let found = text(&changed).expect_err(to);
         assert!(found.contains(problem), "{to}: {found}");
     }
 }
@@ -238,6 +245,17 @@ fn meshes_are_found_by_their_packages() {
 }
 
 #[test]
+fn masses_that_the_compiler_gives_count() {
+    let light = ROBOT.replacen("<mass value=\"1\"/>", "<mass value=\"0\"/>", 1);
+    let with_compiler =
+        |settings: &str| light.replace("<material", &format!("<mujoco><compiler {settings}/></mujoco><material"));
+    assert_eq!(model(&with_compiler("boundmass=\"0.1\" boundinertia=\"0.01\"")).hinges.len(), 2);
+    let by_shapes = model(&with_compiler("inertiafromgeom=\"auto\""));
+    // A ball of 4 cm has 0.268 kg.
+    assert!((by_shapes.bodies[2].mass_kg - 0.268).abs() < 1e-3, "{}", by_shapes.bodies[2].mass_kg);
+}
+
+#[test]
 fn collada_files_have_their_unit() {
     let folder = Folder::new("urdf-collada");
     let numbers = "-1 -2 -3 1 -2 -3 -1 2 -3 1 2 -3 -1 -2 3 1 -2 3 -1 2 3 1 2 3";
@@ -254,11 +272,20 @@ fn collada_files_have_their_unit() {
         <library_visual_scenes><visual_scene id="scene"><node id="node"><instance_geometry url="#box"/></node>
         </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#scene"/></scene></COLLADA>"##
     );
-    folder.write("foot.dae", dae);
+    folder.write("foot.dae", &dae);
     folder.write("robot.urdf", with("<sphere radius=\"0.04\"/>", "<mesh filename=\"foot.dae\"/>"));
     let model = Model::from_mjcf(&folder.read("robot.urdf").expect("a robot")).expect("valid");
     // Half of the height, 3 cm, below a centre that is 0.55 m below the pelvis.
     assert!((model.nominal_position()[2] - 0.58).abs() < 1e-6, "{:?}", model.nominal_position());
+    for (from, to, problem) in [
+        ("0 1 2 3 4 5 5 6 7", "0 1 2 3 4 5 5 6 99", "its indices and arrays do not fit"),
+        ("<node id=", "<node><instance_geometry url=\"#box\"/></node><node id=", "it places a geometry twice"),
+        ("<node id=", "<node><instance_node url=\"#part\"/></node><node id=", "<instance_node> is not read"),
+    ] {
+        folder.write("foot.dae", dae.replacen(from, to, 1));
+        let found = folder.read("robot.urdf").expect_err(to);
+        assert!(found.contains(problem), "{found}");
+    }
 }
 
 proptest! {

@@ -199,7 +199,7 @@ impl<S: Simd> ContactConstraint<S> {
     }
 }
 
-/// Returns the normal and two tangents, those of MuJoCo's `mju_makeFrame`. The first is `along`, as far as that is a tangent.
+/// Returns the normal and two tangents, those of MuJoCo's `mju_makeFrame`. The first is `along`, as far as it is a tangent.
 #[inline(always)]
 fn frame<S: Simd>(normal: &Vec3<S>, along: Option<&Vec3<S>>) -> [Vec3<S>; 3] {
     let (zero, one) = (normal.x.constant(0.0), normal.x.constant(1.0));

@@ -24,9 +24,32 @@ const NUMBERS: [(&str, &str, usize); 14] = [
     ("mimic", "multiplier offset", 1),
     ("color", "rgba", 4),
 ];
-/// Elements that a link or joint must have.
-const NEEDED: [(&str, &str); 5] =
-    [("inertial", "mass"), ("inertial", "inertia"), ("collision", "geometry"), ("joint", "parent"), ("joint", "child")];
+/// Elements that others must have.
+const NEEDED: [(&str, &str); 6] = [
+    ("inertial", "mass"),
+    ("inertial", "inertia"),
+    ("collision", "geometry"),
+    ("visual", "geometry"),
+    ("joint", "parent"),
+    ("joint", "child"),
+];
+/// Attributes that elements must have.
+const GIVEN: [(&str, &str); 10] = [
+    ("joint", "type"),
+    ("parent", "link"),
+    ("child", "link"),
+    ("mass", "value"),
+    ("inertia", "ixx ixy ixz iyy iyz izz"),
+    ("box", "size"),
+    ("cylinder", "radius length"),
+    ("capsule", "radius length"),
+    ("sphere", "radius"),
+    ("mesh", "filename"),
+];
+/// Types of joints.
+const TYPES: [&str; 7] = ["fixed", "revolute", "continuous", "prismatic", "floating", "planar", "spherical"];
+/// Elements within links and joints that are not read.
+const UNREAD: [&str; 3] = ["texture", "safety_controller", "calibration"];
 /// Children of `<robot>` whose content is read.
 const READ: [&str; 4] = ["link", "joint", "material", "mujoco"];
 
@@ -70,20 +93,39 @@ fn check_element(node: Node<'_, '_>, label: &str) -> Result<(), ModelError> {
             return Err(ModelError::unsupported(label, format!("its <{tag}> has no <{child}>")));
         }
     }
-    let is_revolute = tag == "joint" && matches!(node.attribute("type"), Some("revolute" | "prismatic"));
-    if is_revolute && !node.children().any(|found| found.has_tag_name("limit")) {
+    for name in GIVEN.iter().filter(|(of, _)| *of == tag).flat_map(|(_, names)| names.split(' ')) {
+        if node.attribute(name).is_none() {
+            return Err(ModelError::unsupported(label, format!("its <{tag}> has no `{name}`")));
+        }
+    }
+    let kind = node.attribute("type").filter(|_| tag == "joint");
+    if let Some(kind) = kind.filter(|kind| !TYPES.contains(kind)) {
+        return Err(ModelError::attribute(label, "type", kind, format!("one of {}", TYPES.join(", "))));
+    }
+    if matches!(kind, Some("revolute" | "prismatic")) && !node.children().any(|found| found.has_tag_name("limit")) {
         let problem =
             "it has no <limit>, which this type needs; a joint that turns without end has the type \"continuous\"";
         return Err(ModelError::unsupported(label, problem));
     }
-    if tag == "limit"
-        && !node.has_attribute("velocity")
-        && node.document().root_element().attribute("version").is_none()
-    {
+    let version = version(node.document());
+    if tag == "limit" && version < (1, 2) && node.attribute("velocity").is_none() {
         let problem = "its <limit> has no `velocity`, which the format needs; add the greatest speed (rad/s)";
         return Err(ModelError::unsupported(label, problem));
     }
+    if node.has_attribute("quat_xyzw") && version < (1, 1) {
+        let problem = "`quat_xyzw` is of version 1.1 of the format; write `rpy`, or <robot version=\"1.1\">";
+        return Err(ModelError::unsupported(label, problem));
+    }
     Ok(())
+}
+
+/// Returns the version of the format, 1.0 if none is given.
+fn version(document: &Document<'_>) -> (u32, u32) {
+    let given = document.root_element().attribute("version").and_then(|version| {
+        let (major, minor) = version.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    });
+    given.unwrap_or((1, 0))
 }
 
 fn refuse_xacro(document: &Document<'_>, file: &Path) -> Result<(), ModelError> {
@@ -120,18 +162,19 @@ pub(super) fn unused(document: &Document<'_>) -> Vec<String> {
 }
 
 /// Returns the text without elements that are not read, some of which `urdf_rs` would refuse.
-pub(super) fn needed_text(document: &Document<'_>) -> String {
+pub(super) fn needed_text(document: &Document<'_>, has_visuals: bool) -> String {
     let text = document.input_text();
     let root = document.root_element();
     let foreign = root.children().filter(|node| node.is_element() && !READ.contains(&node.tag_name().name()));
-    let mut cut: Vec<_> = foreign
-        .chain(document.descendants().filter(|node| node.has_tag_name("texture")))
-        .map(|node| node.range())
-        .collect();
+    let is_unread = |node: &Node<'_, '_>| {
+        let tag = node.tag_name().name();
+        UNREAD.contains(&tag) || (tag == "visual" && !has_visuals)
+    };
+    let mut cut: Vec<_> = foreign.chain(document.descendants().filter(is_unread)).map(|node| node.range()).collect();
     cut.sort_by_key(|range| range.start);
     let (mut whole, mut done) = (String::with_capacity(text.len()), 0);
     for range in cut {
-        // A texture may be within an element that is left out.
+        // One may be within another.
         if range.start < done {
             continue;
         }

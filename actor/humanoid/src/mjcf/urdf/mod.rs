@@ -36,24 +36,30 @@ pub(in crate::mjcf) fn is_urdf(document: &Document<'_>) -> bool {
     document.root_element().has_tag_name("robot")
 }
 
-/// Returns a URDF as MJCF whose meshes have the paths of their files. The robot stands at height 0.
+/// Returns a URDF as MJCF whose meshes have the paths of their files; visual ones are left out unless `has_visuals`, since
+/// they lie elsewhere on another machine. The robot is at height 0.
 ///
 /// # Errors
 /// [`ModelError`] names the first link or joint that cannot be simulated.
-pub(in crate::mjcf) fn to_mjcf(document: &Document<'_>, file: &Path, files: &ModelFiles) -> Result<String, ModelError> {
+pub(in crate::mjcf) fn to_mjcf(
+    document: &Document<'_>,
+    file: &Path,
+    files: &ModelFiles,
+    has_visuals: bool,
+) -> Result<String, ModelError> {
     check::check(document, file)?;
-    let robot = urdf_rs::read_from_string(&check::needed_text(document))
+    let robot = urdf_rs::read_from_string(&check::needed_text(document, has_visuals))
         .map_err(|why| ModelError::unsupported("robot", format!("the URDF cannot be read: {why}")))?;
     let compiler = document.root_element().children().find(|node| node.has_tag_name("mujoco"));
     let compiler = compiler.and_then(|node| node.children().find(|node| node.has_tag_name("compiler")));
+    let setting = |name: &str| compiler.and_then(|node| node.attribute(name));
+    // Otherwise only <inertial> gives mass.
+    let has_other_masses =
+        setting("boundmass").is_some() || matches!(setting("inertiafromgeom"), Some("true" | "auto"));
     let mut notices = check::unused(document);
-    let tree = tree::LinkTree::of(&robot, files.holds_slides, &mut notices)?;
+    let tree = tree::LinkTree::of(&robot, files.holds_slides, has_other_masses, &mut notices)?;
     let folder = file.parent().unwrap_or(Path::new(""));
-    let meshes = meshes::Search {
-        folder,
-        packages: &files.packages,
-        meshdir: compiler.and_then(|node| node.attribute("meshdir")),
-    };
+    let meshes = meshes::Search { folder, packages: &files.packages, meshdir: setting("meshdir") };
     write::mjcf(&robot, &tree, &meshes, compiler, notices)
 }
 

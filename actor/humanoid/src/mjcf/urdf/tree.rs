@@ -40,7 +40,12 @@ pub(super) enum JointMotion {
 
 impl<'a> LinkTree<'a> {
     /// Orders the links of a robot, and notes which joints are held still.
-    pub(super) fn of(robot: &'a Robot, holds_slides: bool, notices: &mut Vec<String>) -> Result<Self, ModelError> {
+    pub(super) fn of(
+        robot: &'a Robot,
+        holds_slides: bool,
+        has_other_masses: bool,
+        notices: &mut Vec<String>,
+    ) -> Result<Self, ModelError> {
         let links: BTreeMap<&str, &Link> = robot.links.iter().map(|link| (link.name.as_str(), link)).collect();
         let mut below: BTreeMap<&str, Vec<Branch<'a>>> = BTreeMap::new();
         let mut parents: BTreeMap<&str, &Joint> = BTreeMap::new();
@@ -78,7 +83,9 @@ impl<'a> LinkTree<'a> {
         let mut tree = Self { links, below, root, has_world: false };
         tree.check_reach(robot)?;
         tree.has_world = tree.check_free(&parents)?;
-        tree.hold_massless(tree.root, &mut held);
+        if !has_other_masses {
+            tree.hold_massless(tree.root, &mut held);
+        }
         for (why, joints) in held {
             let names: Vec<String> = joints.iter().map(|joint| format!("`{joint}`")).collect();
             notices.push(format!("held still, because {why}: {}", names.join(", ")));
@@ -128,10 +135,10 @@ impl<'a> LinkTree<'a> {
             count += 1;
             if count > 1 || parents.contains_key(branch.joint.parent.link.as_str()) {
                 let problem = format!(
-                    "it is {:?}, which only one joint may be, directly below the root `{}`",
-                    branch.joint.joint_type, self.root
+                    "it is floating or planar, as only one joint may be, directly below the root `{}`",
+                    self.root
                 );
-                return Err(ModelError::unsupported(&format!("joint {}", branch.joint.name), problem.to_lowercase()));
+                return Err(ModelError::unsupported(&format!("joint {}", branch.joint.name), problem));
             }
         }
         Ok(count > 0)
@@ -165,6 +172,9 @@ fn motion(joint: &Joint, holds_slides: bool) -> Result<(JointMotion, f64, Option
                 let problem =
                     format!("its range ends at {} rad, below its beginning, {} rad", limit.upper, limit.lower);
                 return refuse(&problem);
+            }
+            if joint.joint_type == JointType::Revolute && limit.lower.is_finite() != limit.upper.is_finite() {
+                return refuse("its <limit> has one side only; give `lower` and `upper`");
             }
             match joint.joint_type == JointType::Revolute && limit.lower == limit.upper {
                 true => (JointMotion::Held, limit.lower, Some("their range is a single angle")),

@@ -237,7 +237,8 @@ impl Writer<'_> {
 /// Returns the error of a colliding mesh without a file.
 fn missing(label: &str, name: &str, tried: &[PathBuf]) -> ModelError {
     let paths: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
-    let remedy = match name.strip_prefix("package://").and_then(|path| path.split('/').next()) {
+    let within = ["package://", "model://"].iter().find_map(|scheme| name.strip_prefix(scheme));
+    let remedy = match within.and_then(|path| path.split('/').next()) {
         Some(package) => format!("; name the folder of its package: --package {package}=FOLDER"),
         None => String::new(),
     };
