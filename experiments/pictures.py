@@ -6,7 +6,6 @@ Usage: python3 -m experiments.pictures
 
 import csv
 import pathlib
-import statistics
 import textwrap
 
 import matplotlib
@@ -75,28 +74,7 @@ def faults():
     save(figure, "faults.png")
 
 
-def curves():
-    """Distance of evaluations by steps and by time: each seed, and their median."""
-    runs = {}
-    for row in rows("learning/curves.csv"):
-        point = [float(row[name]) for name in ("steps", "seconds", "distance in 15 s, m")]
-        runs.setdefault(row["build"], {}).setdefault(row["seed"], []).append(point)
-    figure, panels = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True)
-    for (build, seeds), colour in zip(runs.items(), (GREY, BLUE)):
-        for axis, (panel, unit) in enumerate(zip(panels, (1e6, 1))):
-            for points in seeds.values():
-                panel.plot([point[axis] / unit for point in points], [point[2] for point in points], color=colour, alpha=0.35)
-            # Evaluations of all seeds come after about as many steps.
-            middle = [[statistics.median(point[column] for point in points) for column in (axis, 2)] for points in zip(*seeds.values())]
-            panel.plot([x / unit for x, _ in middle], [y for _, y in middle], color=colour, linewidth=2.5, label=f"commit {build}, median of {len(seeds)}")
-    panels[0].set(xlabel="million environment steps", ylabel="distance in 15 s (m)", xlim=0, ylim=0)
-    panels[1].set(xlabel="seconds from the start of `train`", xlim=0)
-    panels[0].legend()
-    save(figure, "curves.png")
-
-
 if __name__ == "__main__":
     speed()
     scale()
     faults()
-    curves()

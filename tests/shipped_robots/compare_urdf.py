@@ -35,7 +35,7 @@ SETTINGS = {
 
 def without_shapes(file: str) -> ElementTree.Element:
     """Returns a URDF of links and joints alone. Joints that Treadmill holds still are fixed, and no motor is stronger than the
-    robot's weight at 20 cm: files say 50,000 N·m, which turn a hinge through its range in one step."""
+    robot's weight at 5 cm: files say 50,000 N·m, which turn a hinge through its range in one step."""
     robot = ElementTree.parse(file).getroot()
     for element in list(robot):
         if element.tag not in ("link", "joint"):
@@ -53,7 +53,7 @@ def without_shapes(file: str) -> ElementTree.Element:
         if joint.find("mimic") is not None or joint.find("child").get("link") not in heavy:
             joint.set("type", "fixed")
         if (limit := joint.find("limit")) is not None:
-            limit.set("effort", str(min(float(limit.get("effort", 0)), 0.2 * 9.81 * sum(masses.values()))))
+            limit.set("effort", str(min(float(limit.get("effort", 0)), 0.05 * 9.81 * sum(masses.values()))))
     return robot
 
 

@@ -133,8 +133,9 @@ fn every_file_is_understood_and_its_drafted_card_too() {
 
         let draft = stdout(&run(folder.path(), &["robot", text(&file)]));
         assert!(draft.contains(&format!("model = \"{}\"", file.display())), "{draft}");
-        // A file without limits of torque cannot propose any.
-        let card = draft.replace("# effort_nm = 50.0", "effort_nm = 50.0");
+        // A file without limits of torque cannot propose any, and one without shapes no height.
+        let card =
+            draft.replace("# effort_nm = 50.0", "effort_nm = 50.0").replace("# height_m = 1.0", "height_m = 1.0");
         fs::write(folder.path().join("card.toml"), card).expect("a card");
         let report = reported(folder.path(), "card.toml", &[]);
         let of_card = report["hinges"].as_array().expect("hinges");

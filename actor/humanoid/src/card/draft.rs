@@ -43,9 +43,10 @@ pub fn draft(model: &Model, file: &str) -> String {
         Some(key) => {
             let _ = writeln!(card, "keyframe = {}", quoted(&key.name));
         }
-        None => {
+        None if model.bodies[0].pose.translation.z > 0.0 => {
             let _ = writeln!(card, "height_m = {}", short(model.bodies[0].pose.translation.z));
         }
+        None => card.push_str("# height_m = 1.0  # missing in the file: the height of the root (m)\n"),
     }
     // The keyframe has the angles.
     for (names, numbers) in rules(model) {

@@ -17,6 +17,7 @@ const ROBOT: &str = r#"<robot name="one leg">
       <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.25"/>
     </inertial>
     <collision><geometry><box size="0.2 0.4 0.1"/></geometry></collision>
+    <collision_checking><capsule name="pelvis_0"/></collision_checking>
   </link>
   <joint name="mount" type="fixed"><parent link="pelvis"/><child link="sensor"/><origin xyz="1 0 0.1"/></joint>
   <link name="sensor">

@@ -46,6 +46,8 @@ const GIVEN: [(&str, &str); 10] = [
     ("sphere", "radius"),
     ("mesh", "filename"),
 ];
+/// Shapes, which are within a `<geometry>`.
+const SHAPES: [&str; 5] = ["box", "cylinder", "capsule", "sphere", "mesh"];
 /// Types of joints.
 const TYPES: [&str; 7] = ["fixed", "revolute", "continuous", "prismatic", "floating", "planar", "spherical"];
 /// Elements within links and joints that are not read.
@@ -76,6 +78,10 @@ pub(super) fn check(document: &Document<'_>, file: &Path) -> Result<(), ModelErr
 
 fn check_element(node: Node<'_, '_>, label: &str) -> Result<(), ModelError> {
     let tag = node.tag_name().name();
+    // Extensions of other programs have shapes of their own.
+    if SHAPES.contains(&tag) && !node.parent().is_some_and(|parent| parent.has_tag_name("geometry")) {
+        return Ok(());
+    }
     for (_, names, count) in NUMBERS.iter().filter(|(of, ..)| *of == tag) {
         for name in names.split(' ') {
             let Some(value) = node.attribute(name) else { continue };
