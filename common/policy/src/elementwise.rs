@@ -145,7 +145,7 @@ fn exp_nonpositive<const FUSED: bool>(x: f32) -> f32 {
     /// Below this `exp` is less than half of the last bit of −1, and 2ⁿ would leave the normal numbers.
     const LEAST: f32 = -87.0;
     /// Coefficients of r⁶ to r⁰.
-    const COEFFICIENTS: [f32; 7] = [0.001_395_05, 0.008_368_88, 0.041_666_21, 0.166_665_19, 0.5, 1.0, 1.0];
+    const COEFFICIENTS: [f32; 7] = [0.001_395_05, 0.008_368_88, 0.041_666_21, 0.166_665_2, 0.5, 1.0, 1.0];
 
     let x = if x < LEAST { LEAST } else { x };
     let shifted = product_sum::<FUSED>(x, std::f32::consts::LOG2_E, ROUND);

@@ -12,6 +12,8 @@ const FREQUENCY_HZ: f64 = 10.0;
 const DAMPING_RATIO: f64 = 2.0;
 /// Stiffness per greatest torque (1/rad) and damping per stiffness (s) of a hinge without rotor inertia.
 const STIFFNESS_PER_EFFORT: f64 = 1.0;
+/// Greatest torque that counts for it, per mass of the robot (N·m/kg): that of its weight at 1 m.
+const WEIGHT_NMPKG: f64 = 9.81;
 const DAMPING_PER_STIFFNESS_S: f64 = 0.05;
 /// Proposed rotor inertia (kg·m²) of a hinge that has none and no servo.
 const ARMATURE_KGM2: f64 = 0.01;
@@ -133,7 +135,8 @@ fn numbers(model: &Model, index: usize) -> Numbers {
     }
     let (armature_kgm2, rate_radps) = (hinge.armature_kgm2, TAU * FREQUENCY_HZ);
     let kp = match (armature_kgm2 > 0.0, effort_nm) {
-        (false, Some(effort_nm)) => effort_nm * STIFFNESS_PER_EFFORT,
+        // Files without a real limit name an enormous one.
+        (false, Some(effort_nm)) => effort_nm.min(model.mass_kg() * WEIGHT_NMPKG) * STIFFNESS_PER_EFFORT,
         (has_rotor, _) => (if has_rotor { armature_kgm2 } else { ARMATURE_KGM2 }) * rate_radps * rate_radps,
     };
     let kd = match armature_kgm2 > 0.0 {

@@ -184,9 +184,12 @@ fn check_collada(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
+/// Vertices, and the three of each triangle.
+pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[usize; 3]>);
+
 /// Returns vertices and triangles of a mesh file. As in MuJoCo, the vertices of an OBJ file count whether a face names them
 /// or not, by their first three numbers.
-pub(super) fn triangles(name: &str, path: &Path) -> Result<(Vec<[f32; 3]>, Vec<[usize; 3]>), ModelError> {
+pub(super) fn triangles(name: &str, path: &Path) -> Result<Triangles, ModelError> {
     let scene = read_mesh(name, path)?;
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     if has_extension(path, &["obj"]) {
