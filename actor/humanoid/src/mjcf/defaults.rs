@@ -144,8 +144,6 @@ impl Defaults {
         let mut found: Vec<Attribute> = self.attributes.iter().filter(is_common).cloned().collect();
         let under = Element { tag: self.tag.clone(), label: String::new(), attributes: self.attributes.clone() };
         let gain = |name: &str| under.number(name);
-        let bias = under.list("biasprm").and_then(|all| all.get(2).copied());
-        let of_general = [gain("gainprm"), bias.filter(|damping| *damping <= 0.0), bias.filter(|ratio| *ratio > 0.0)];
         let gains: Vec<(&str, Option<String>)> = match (self.tag.as_str(), tag) {
             ("position", "general") => {
                 let stiffness = gain("kp").unwrap_or(1.0);
@@ -157,8 +155,11 @@ impl Defaults {
                 affine(damping, &format!("0 0 {}", -damping))
             }
             ("general", "position") => {
-                let names = [("kp", 1.0), ("kv", -1.0), ("dampratio", 1.0)].into_iter().zip(of_general);
-                names.map(|((name, sign), value)| (name, value.map(|value| (sign * value).to_string()))).collect()
+                let bias = under.list("biasprm").and_then(|all| all.get(2).copied());
+                let damping = bias.filter(|bias| *bias <= 0.0).map(|bias| -bias);
+                [("kp", gain("gainprm")), ("kv", damping), ("dampratio", bias.filter(|ratio| *ratio > 0.0))]
+                    .map(|(name, value)| (name, value.map(|value| value.to_string())))
+                    .into()
             }
             ("general", "velocity") => vec![("kv", gain("gainprm").map(|gain| gain.to_string()))],
             _ => Vec::new(),

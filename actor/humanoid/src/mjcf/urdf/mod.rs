@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use crate::error::ModelError;
+use crate::mjcf::xml::{elements, sections};
 
 /// Name of a `<text>` in `<custom>` that holds what was understood differently, or is not simulated.
 const NOTICE: &str = "treadmill_notice";
@@ -50,8 +51,7 @@ pub(in crate::mjcf) fn to_mjcf(
     check::check(document, file)?;
     let robot = urdf_rs::read_from_string(&check::needed_text(document, has_visuals))
         .map_err(|why| ModelError::unsupported("robot", format!("the URDF cannot be read: {why}")))?;
-    let compiler = document.root_element().children().find(|node| node.has_tag_name("mujoco"));
-    let compiler = compiler.and_then(|node| node.children().find(|node| node.has_tag_name("compiler")));
+    let compiler = sections(document.root_element(), "mujoco").flat_map(|mujoco| sections(mujoco, "compiler")).next();
     let setting = |name: &str| compiler.and_then(|node| node.attribute(name));
     // Otherwise only <inertial> gives mass.
     let has_other_masses =
@@ -70,8 +70,7 @@ pub(in crate::mjcf) fn raised(text: &str, height_m: f64) -> String {
 
 /// Returns the notices in an MJCF text.
 pub(in crate::mjcf) fn notices(document: &Document<'_>) -> Vec<String> {
-    let customs = document.root_element().children().filter(|node| node.has_tag_name("custom"));
-    let texts = customs.flat_map(|custom| custom.children()).filter(is_notice);
+    let texts = sections(document.root_element(), "custom").flat_map(elements).filter(is_notice);
     texts.filter_map(|node| node.attribute("data").map(str::to_owned)).collect()
 }
 
