@@ -105,6 +105,39 @@ class TransferTest(unittest.TestCase):
         self.assertEqual(shown, [True, True, False, False, True, True])
         self.assertAlmostEqual(phase(policy.contract, 10, 0)[0], 1.0)
 
+    def test_a_base_that_faces_backwards_is_turned(self):
+        # The policy knows a base whose x axis is the file's -y axis.
+        half = math.sqrt(0.5)
+        turned = {**contract(), "base_turn_wxyz": [half, 0.0, 0.0, -half], "default_base_orientation_wxyz": [1.0, 0.0, 0.0, 0.0]}
+        robot = Robot(self.model, read_contract(json.dumps(turned)))
+        robot.reset()
+        numpy.testing.assert_allclose(robot.rotation, numpy.eye(3), atol=1e-12)
+        self.assertAlmostEqual(robot.heading_rad, 0.0)
+        # In the file's own frame, the base is turned to the left by 90°.
+        numpy.testing.assert_allclose(robot.data.qpos[3:7], [half, 0.0, 0.0, half], atol=1e-12)
+        state = numpy.array([0, 0, 1, half, half, 0, 0, 0.4, 0.3, 0.5]), numpy.array([1, 2, 3, 0.1, 0.2, 0.3, 4, 5, 6])
+        robot.set_state(*state)
+        for found, given in zip(robot.state(), state):
+            numpy.testing.assert_allclose(found, given, atol=1e-12)
+        numpy.testing.assert_allclose(robot.angular_radps, [0.1, 0.2, 0.3], atol=1e-12)
+        # 0.1 rad/s about the policy's x axis is -0.1 rad/s about the file's y axis, and 0.2 about y the same about x.
+        numpy.testing.assert_allclose(robot.data.qvel[3:6], [0.2, -0.1, 0.3], atol=1e-12)
+
+    def test_excluded_bodies_do_not_touch(self):
+        bodies = [mujoco.MjModel.from_xml_path(str(self.model)).body(index).name for index in (1, 2)]
+        excluding = Robot(self.model, read_contract(json.dumps({**contract(), "excluded_bodies": [bodies, bodies]})))
+        self.assertEqual(excluding.model.nexclude, 1)
+        # MuJoCo lets a listed pair touch whatever is excluded.
+        listed = '<contact><pair geom1="trunk_box" geom2="left_bar"/></contact></mujoco>'
+        text = self.model.read_text().replace('<geom type="box"', '<geom name="trunk_box" type="box"', 1)
+        text = text.replace('<geom type="capsule"', '<geom name="left_bar" type="capsule"', 1).replace("</mujoco>", listed)
+        self.model.write_text(text)
+        self.assertEqual(Robot(self.model, read_contract(json.dumps(contract()))).model.npair, 1)
+        excluding = Robot(self.model, read_contract(json.dumps({**contract(), "excluded_bodies": [["base", "left"]]})))
+        self.assertEqual((excluding.model.npair, excluding.model.nexclude), (0, 1))
+        with self.assertRaisesRegex(TransferError, "excluded_bodies"):
+            read_contract(json.dumps({**contract(), "excluded_bodies": [["trunk"]]}))
+
     def test_velocity_is_seen_in_the_heading_frame(self):
         cos, sin = math.cos(0.3), math.sin(0.3)
         # Turned left by 90°, then pitched about its own left by 0.3.

@@ -39,6 +39,8 @@ class Contract:
     action_limit: float
     held: Joints
     base_body: str
+    base_turn_wxyz: numpy.ndarray
+    excluded_bodies: list
     feet_bodies: list
     base_height_m: float
     base_orientation_wxyz: numpy.ndarray
@@ -143,6 +145,9 @@ def read_contract(text):
         action_limit=fields.number("action_limit", above=0.0),
         held=_joints(fields.part("held_joints")),
         base_body=fields.get("base_body"),
+        # Files of older versions have bases that face along x.
+        base_turn_wxyz=fields.numbers("base_turn_wxyz", 4) if "base_turn_wxyz" in whole else numpy.array([1.0, 0.0, 0.0, 0.0]),
+        excluded_bodies=_pairs(whole.get("excluded_bodies", [])),
         feet_bodies=fields.names("feet_bodies"),
         base_height_m=fields.number("default_base_height_m", above=0.0),
         base_orientation_wxyz=fields.numbers("default_base_orientation_wxyz", 4),
@@ -167,6 +172,14 @@ def read_contract(text):
         push_interval_s=tuple(fields.numbers("push_interval_s", 2)),
         push_mps=tuple(fields.numbers("push_mps", 2)),
     )
+
+
+def _pairs(found):
+    """Returns pairs of names, checked."""
+    is_pair = lambda pair: isinstance(pair, list) and len(pair) == 2 and all(isinstance(name, str) for name in pair)
+    if not isinstance(found, list) or not all(map(is_pair, found)):
+        raise TransferError("`excluded_bodies` is not a list of pairs of names")
+    return found
 
 
 def _joints(fields):

@@ -33,6 +33,7 @@ class Robot:
         self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
         self.model = compiled(spec, path)
         self.data = mujoco.MjData(self.model)
+        self._turn_back = contract.base_turn_wxyz * [1.0, -1.0, -1.0, -1.0]
         self._find(path)
 
     def _find(self, path):
@@ -76,7 +77,7 @@ class Robot:
         qpos, contract = self.data.qpos, self.contract
         turned = numpy.empty(4)
         turn = numpy.array([math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0)])
-        mujoco.mju_mulQuat(turned, turn, contract.base_orientation_wxyz)
+        mujoco.mju_mulQuat(turned, turn, self._in_file(contract.base_orientation_wxyz))
         qpos[self._root_q : self._root_q + 7] = [x, y, z + contract.base_height_m, *turned]
         qpos[self._q], qpos[self._held_q] = contract.joints.default_rad, contract.held.default_rad
         self.data.ctrl[:] = numpy.concatenate([contract.joints.default_rad, contract.held.default_rad])
@@ -86,16 +87,26 @@ class Robot:
         """Sets a state: root, then the hinges in the order of the file."""
         mujoco.mj_resetData(self.model, self.data)
         data, contract = self.data, self.contract
-        data.qpos[self._root_q : self._root_q + 7], data.qpos[self._all_q] = qpos[:7], qpos[7:]
-        data.qvel[self._root_v : self._root_v + 6], data.qvel[self._all_v] = qvel[:6], qvel[6:]
+        data.qpos[self._root_q : self._root_q + 3], data.qpos[self._all_q] = qpos[:3], qpos[7:]
+        data.qpos[self._root_q + 3 : self._root_q + 7] = self._in_file(qpos[3:7])
+        data.qvel[self._root_v : self._root_v + 3], data.qvel[self._all_v] = qvel[:3], qvel[6:]
+        mujoco.mju_rotVecQuat(data.qvel[self._root_v + 3 : self._root_v + 6], qvel[3:6], contract.base_turn_wxyz)
         data.ctrl[len(contract.joints.names) :] = contract.held.default_rad
         mujoco.mj_forward(self.model, data)
 
     def state(self):
         """Returns the position and velocity vectors, in the order of `set_state`."""
         data = self.data
-        position = numpy.concatenate([data.qpos[self._root_q : self._root_q + 7], data.qpos[self._all_q]])
-        return position, numpy.concatenate([data.qvel[self._root_v : self._root_v + 6], data.qvel[self._all_v]])
+        orientation = numpy.empty(4)
+        mujoco.mju_mulQuat(orientation, data.qpos[self._root_q + 3 : self._root_q + 7], self.contract.base_turn_wxyz)
+        position = numpy.concatenate([self.position_m, orientation, data.qpos[self._all_q]])
+        return position, numpy.concatenate([self.linear_mps, self.angular_radps, data.qvel[self._all_v]])
+
+    def _in_file(self, orientation_wxyz):
+        """Returns the orientation of the file's base from that of the base that the policy knows."""
+        turned = numpy.empty(4)
+        mujoco.mju_mulQuat(turned, orientation_wxyz, self._turn_back)
+        return turned
 
     def step(self, targets_rad):
         """Simulates one control step with these targets of the policy's joints. Returns whether the state stayed finite."""
@@ -120,9 +131,10 @@ class Robot:
 
     @property
     def rotation(self):
-        """Rotation matrix of the base."""
-        matrix = numpy.empty(9)
-        mujoco.mju_quat2Mat(matrix, self.data.qpos[self._root_q + 3 : self._root_q + 7])
+        """Rotation matrix of the base that the policy knows, whose x axis points forward."""
+        matrix, turned = numpy.empty(9), numpy.empty(4)
+        mujoco.mju_mulQuat(turned, self.data.qpos[self._root_q + 3 : self._root_q + 7], self.contract.base_turn_wxyz)
+        mujoco.mju_quat2Mat(matrix, turned)
         return matrix.reshape(3, 3)
 
     @property
@@ -132,8 +144,10 @@ class Robot:
 
     @property
     def angular_radps(self):
-        """Angular velocity of the base in its own frame."""
-        return self.data.qvel[self._root_v + 3 : self._root_v + 6]
+        """Angular velocity of the base that the policy knows, in its own frame."""
+        rates = numpy.empty(3)
+        mujoco.mju_rotVecQuat(rates, self.data.qvel[self._root_v + 3 : self._root_v + 6], self._turn_back)
+        return rates
 
     @property
     def angles_rad(self):
@@ -279,10 +293,23 @@ def plain_actuator():
     return {key: value for key, value in values.items() if not callable(value)}
 
 
+def _is_excluded(spec, pair):
+    return any({exclude.bodyname1, exclude.bodyname2} == set(pair) for exclude in spec.excludes)
+
+
 def _add_servos(spec, path, contract, notes):
     for name, what in [(contract.base_body, "the base"), *((foot, "a foot") for foot in contract.feet_bodies)]:
         if spec.body(name) is None:
             raise TransferError(f"the model `{path}` has no body `{name}`, {what} of the contract")
+    for pair in contract.excluded_bodies:
+        # Bodies that the file has welded together, or excluded already, cannot touch anyway.
+        if all(spec.body(name) is not None for name in pair) and not _is_excluded(spec, pair):
+            spec.add_exclude(bodyname1=pair[0], bodyname2=pair[1])
+    # Pairs that the file lists touch whatever is excluded.
+    excluded = [set(pair) for pair in contract.excluded_bodies]
+    for listed in list(spec.pairs):
+        if {spec.geom(name).parent.name for name in (listed.geomname1, listed.geomname2)} in excluded:
+            spec.delete(listed)
     plain = plain_actuator()
     for joints in (contract.joints, contract.held):
         for index, name in enumerate(joints.names):

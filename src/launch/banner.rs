@@ -5,7 +5,7 @@ use std::{net::SocketAddr, path::Path};
 
 use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
-use treadmill_humanoid::worlds_per_pass;
+use treadmill_humanoid::{Model, worlds_per_pass};
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
@@ -40,6 +40,9 @@ pub fn print_start(
     };
     say(&format!("run `{run}`: {verb}"));
     say(&format!("  learns    {}", goal(config, steps)));
+    if let Some(robot) = state.known().and_then(|state| robot(config, &state.model_xml)) {
+        say(&format!("  robot     {robot}"));
+    }
     if let Some(origin) = &setup.origin {
         say(&format!("  begins    with the policy of {origin}"));
     }
@@ -83,6 +86,21 @@ pub fn print_start(
         say(&format!("  state     in {url}; any learner with the same --store can take over"));
     }
     say(&format!("  resume    {}", setup.resume_command(command)));
+}
+
+/// Describes the robot of a velocity run.
+fn robot(config: &Config, model_xml: &str) -> Option<String> {
+    let model = Model::from_mjcf(model_xml).ok().filter(|_| config.env.chosen_task() == ChosenTask::Velocity)?;
+    let feet: Vec<&str> =
+        model.robot.iter().flat_map(|robot| &robot.feet).map(|foot| &*model.links[*foot].name).collect();
+    let [back_mps, forward_mps] = config.velocity.lin_vel_x_mps;
+    Some(format!(
+        "{:.1} kg on {}; the policy moves {} of {} hinges, at {back_mps} to {forward_mps} m/s",
+        model.mass_kg(),
+        feet.join(" and "),
+        model.motors.len(),
+        model.hinges.len()
+    ))
 }
 
 /// Returns the command that starts an actor of this run.

@@ -1,20 +1,21 @@
 //! Begins a run: configuration, robot, folder and first state.
 
 use treadmill_config::{Config, ConfigSource, LearnerMode, RolloutConfig};
-use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_humanoid::{Model, PHYSICS_VERSION, card::BodySize};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_ppo::settings;
 use treadmill_proto::limits::fragment_envs_max;
 use treadmill_runtime::{run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
+    automatic,
     exit_code::Usage,
     model,
     prepared::{
         FirstState, Launcher, Prepared, RunCommand, RunSetup, Start, actor_processes, check_external, check_not_stored,
         complete, open_device,
     },
-    run_args::{AnyRunArgs, NewRunArgs, add_count},
+    run_args::{AnyRunArgs, NewRunArgs, OF_ANY_ROBOT, add_count},
     warm_start::{Fork, InitFrom},
 };
 
@@ -34,6 +35,10 @@ pub fn begin(
         Some(fork) => source.text(&fork.state.config_toml, "the configuration of the forked run")?,
         None => source.preset(new.preset())?,
     }
+    let init_from = if fork.is_none() { InitFrom::read(new, any)? } else { None };
+    if fork.is_none() {
+        add_size(&mut source, launcher, new, any, changes, init_from.as_ref())?;
+    }
     if launcher.command == RunCommand::Learner && fork.is_none() {
         // Its actors are on other machines, and do not wait for the update.
         source.value("learner.mode", LearnerMode::Async.name())?;
@@ -45,9 +50,38 @@ pub fn begin(
     check_external(launcher.command, &config, any)?;
     match fork {
         Some(fork) => branch_off(launcher, new, any, config, fork),
-        None if config.is_external() => begin_external(new, any, config),
-        None => begin_built_in(launcher, new, any, config),
+        None if config.is_external() => begin_external(new, any, config, init_from),
+        None => begin_built_in(launcher, new, any, config, init_from),
     }
+}
+
+/// Adds the keys that follow from the size of a robot of the velocity task, unless a preset has those of its robot.
+fn add_size(
+    source: &mut ConfigSource,
+    launcher: Launcher<'_>,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+    init_from: Option<&InitFrom>,
+) -> anyhow::Result<()> {
+    if new.preset() != OF_ANY_ROBOT {
+        return Ok(());
+    }
+    let mut whole = source.clone();
+    new.add_to(&mut whole, launcher.tasks, changes)?;
+    let config = whole.build()?;
+    let mut size = None;
+    if !config.is_external() {
+        let file = any.model.as_deref();
+        let text = model::completed(&config, file, &any.model_file, InitFrom::model_of(init_from))?;
+        let found = Model::from_mjcf(&text).and_then(|model| BodySize::of(&model));
+        // A body of another kind has commands of its own.
+        size = found.inspect_err(|why| tracing::warn!("commands and rewards are those of a G1: {why}")).ok();
+    }
+    for (key, value) in automatic::keys(size) {
+        source.value(key, value)?;
+    }
+    Ok(())
 }
 
 fn begin_built_in(
@@ -55,11 +89,11 @@ fn begin_built_in(
     new: &NewRunArgs,
     any: &AnyRunArgs,
     mut config: Config,
+    init_from: Option<InitFrom>,
 ) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let file = any.model.as_deref();
-    let mut text = model::completed(&config, file, &any.model_file)?;
-    let init_from = InitFrom::read(new, any)?;
+    let mut text = model::completed(&config, file, &any.model_file, InitFrom::model_of(init_from.as_ref()))?;
     if let Some(from) = &init_from {
         text = from.in_its_order(&text, file)?.into();
     }
@@ -83,13 +117,17 @@ fn begin_built_in(
 }
 
 /// Begins a run whose task an actor registers; it has no state until then, unless the configuration knows the task.
-fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
+fn begin_external(
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    config: Config,
+    init_from: Option<InitFrom>,
+) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let known = config.task.known();
     if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
         return Err(Usage(why).into());
     }
-    let init_from = InitFrom::read(new, any)?;
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     let mut setup = RunSetup { config, folder, device, run, origin: None, store: None };

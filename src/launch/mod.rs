@@ -3,8 +3,8 @@
 //! # Layout
 //! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `prepared` (that run), `begin` (a
 //!   new run), `warm_start` (from another run's policy or state), `resumption` (loads a saved run and compares the
-//!   flags with it), `model` (the robot), `external_task` (waits for the task that the first actor registers), `banner`
-//!   (text printed before and after a run).
+//!   flags with it), `model` (the robot), `automatic` (settings that follow from its size), `external_task` (waits for
+//!   the task that the first actor registers), `banner` (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `durability` (the same with its state in a store), `standby`
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over
@@ -14,6 +14,7 @@
 //!   program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
 pub(crate) mod async_runtime;
+pub(crate) mod automatic;
 pub(crate) mod banner;
 pub(crate) mod begin;
 pub(crate) mod bus_client;

@@ -7,7 +7,9 @@ use std::{
 
 use clap::Args;
 use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
-use treadmill_humanoid::{Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry, mjcf, read_model_file};
+use treadmill_humanoid::{
+    Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry, card::Proposal, mjcf, read_model_file,
+};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
 use treadmill_runtime::{error_chain, words::nearest_path};
@@ -50,18 +52,50 @@ impl ModelArgs {
     }
 }
 
-/// Returns the text of a model file, or by default of the built-in humanoid, with the card that `env.robot` names.
-pub fn completed(config: &Config, file: Option<&Path>, files: &ModelFileArgs) -> Result<Cow<'static, str>, Usage> {
+/// Returns the text of a model file, or by default of the built-in humanoid, with the card that `env.robot` names. For the
+/// velocity task a model without a card gets that of the model `like`, if there is one, or else the one that [`Proposal`]
+/// finds.
+pub fn completed(
+    config: &Config,
+    file: Option<&Path>,
+    files: &ModelFileArgs,
+    like: &str,
+) -> Result<Cow<'static, str>, Usage> {
     let text = text(file, files)?;
-    match config.env.robot.as_str() {
-        "" => Ok(text),
+    let is_velocity = matches!(config.env.chosen_task(), ChosenTask::Velocity);
+    match (config.env.robot.as_str(), file) {
+        ("", _) if is_velocity && mjcf::card_of(&text).is_none() => {
+            let card = mjcf::card_of(like).map_or_else(|| found_card(&text, file), Ok)?;
+            let whole = mjcf::with_card(&text, &card).map_err(|why| in_file(file, &why))?;
+            Ok(Cow::Owned(whole))
+        }
+        ("", _) => Ok(text),
         // The cards that come along are of other robots than the built-in humanoid.
-        name if file.is_none() => Err(Usage(format!(
+        (name, None) => Err(Usage(format!(
             "config key `env.robot` is `{name}`, and the file of that robot is missing; name it: --model FILE \
              (docs/guide/your-robot.md says where it is from)"
         ))),
-        name => Ok(Cow::Owned(mjcf::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?)),
+        (name, _) => {
+            Ok(Cow::Owned(mjcf::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?))
+        }
     }
+}
+
+/// Returns the card that is found from a model alone.
+///
+/// # Errors
+/// All that cannot be found, and how to give it.
+fn found_card(text: &str, file: Option<&Path>) -> Result<String, Usage> {
+    let proposed = Model::without_motors(text).and_then(|model| Proposal::of(&model));
+    let Proposal { card, missing } = proposed.map_err(|why| in_file(file, &why))?;
+    if missing.is_empty() {
+        return Ok(card);
+    }
+    let shown = file.unwrap_or(Path::new("FILE")).display();
+    Err(Usage(format!(
+        "model file `{shown}`: {}; draft a card by `treadmill robot {shown} --draft card.toml`, and train with --model card.toml",
+        missing.join("; ")
+    )))
 }
 
 /// Refuses flags about a model file where none is given.
@@ -85,9 +119,11 @@ pub fn text(file: Option<&Path>, files: &ModelFileArgs) -> Result<Cow<'static, s
     }
 }
 
-/// Returns the text of a model file with hinges and motors in the order of the model that a policy was trained with.
-pub fn in_order_of(text: &str, trained_with: &str, file: &Path) -> Result<String, Usage> {
-    mjcf::in_order_of(text, trained_with).map_err(|why| in_file(Some(file), &why))
+/// Returns the text of a model file for a policy that was trained with the model `trained_with`: completed, by the card of
+/// that model if it has none, with hinges and motors in its order.
+pub fn for_policy(config: &Config, file: &Path, files: &ModelFileArgs, trained_with: &str) -> Result<String, Usage> {
+    let text = completed(config, Some(file), files, trained_with)?;
+    mjcf::in_order_of(&text, trained_with).map_err(|why| in_file(Some(file), &why))
 }
 
 /// Builds the environment of a model text, which was read from `file` if given.
@@ -155,7 +191,7 @@ pub fn networks(config: &Config, environment: &Environment) -> Result<Networks, 
 
 /// Checks that `file` is the model of the resumed run.
 pub fn check_same(config: &Config, run_text: &str, file: &Path, files: &ModelFileArgs) -> Result<(), Usage> {
-    if completed(config, Some(file), files)? == run_text {
+    if completed(config, Some(file), files, run_text)? == run_text {
         return Ok(());
     }
     Err(Usage(format!(

@@ -3,7 +3,7 @@
 use std::{fs, path::PathBuf};
 
 use clap::Args;
-use treadmill_config::{ConfigSource, EnvTask};
+use treadmill_config::{ConfigSource, EnvTask, given_value};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::device::DeviceKind;
@@ -14,11 +14,14 @@ use crate::{
     shared::{existing_file::existing_file, model_file::ModelFileArgs},
 };
 
+/// Preset of the velocity task for any robot.
+pub const OF_ANY_ROBOT: &str = "velocity";
+
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
     /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, sim2sim, smoke, or that of a
-    /// robot, which --model gives: g1, g1-29, g1-rough, h1 or t1.
+    /// robot, which --model gives: g1, g1-29, g1-rough, h1, t1, or velocity (the default with --task velocity) for any.
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.
@@ -54,7 +57,16 @@ pub struct NewRunArgs {
 impl NewRunArgs {
     /// Returns the name of the preset.
     pub fn preset(&self) -> &str {
-        self.preset.as_deref().unwrap_or("walk")
+        let default = if self.is_velocity() { OF_ANY_ROBOT } else { "walk" };
+        self.preset.as_deref().unwrap_or(default)
+    }
+
+    /// Returns whether flags or configuration file choose the velocity task.
+    fn is_velocity(&self) -> bool {
+        match &self.task {
+            Some(name) => name == EnvTask::Velocity.name(),
+            None => self.given("env.task").is_some_and(|task| task.as_str() == Some(EnvTask::Velocity.name())),
+        }
     }
 
     /// Adds the file, the keys and the task, in this order, then `changes`, which are keys of other flags, and the seed.
@@ -82,13 +94,18 @@ impl NewRunArgs {
 
     /// Returns whether `--set` or the configuration file has a key, whatever its value.
     pub fn gives(&self, key: &str) -> bool {
-        let is_set = self.set.iter().any(|pair| pair.split('=').next().is_some_and(|name| name.trim() == key));
+        self.given(key).is_some()
+    }
+
+    /// Returns the value of a key that `--set` or else the configuration file has.
+    fn given(&self, key: &str) -> Option<toml::Value> {
+        let by_set = self.set.iter().rev().filter_map(|pair| pair.split_once('=')).find(|(name, _)| name.trim() == key);
         let in_file = || {
             let table: toml::Table = fs::read_to_string(self.config.as_ref()?).ok()?.parse().ok()?;
             let (section, name) = key.split_once('.')?;
-            table.get(section)?.get(name).map(|_| ())
+            table.get(section)?.get(name).cloned()
         };
-        is_set || in_file().is_some()
+        by_set.map(|(_, text)| given_value(text)).or_else(in_file)
     }
 
     /// Refuses a key of new networks, which networks of `flag` have learnt already.

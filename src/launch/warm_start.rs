@@ -54,6 +54,11 @@ impl InitFrom {
         Ok(Some(Self { from, saved, rate_is_given: new.gives(RATE) }))
     }
 
+    /// Returns the model of the policy; empty without one.
+    pub fn model_of(from: Option<&Self>) -> &str {
+        from.map_or("", |from| &from.saved.policy.model_xml)
+    }
+
     /// Returns a model text, which was read from `file` if given, with hinges and motors in the order of the policy's model.
     ///
     /// # Errors

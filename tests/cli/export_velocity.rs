@@ -97,17 +97,10 @@ fn check_metadata(model: &[u8]) {
     assert_eq!((&listed("default_joint_pos")[KNEE][..], &listed("action_scale")[KNEE][..]), ("0.25", "0.2"));
     // A quarter of 60 N·m ÷ 40 N·m/rad.
     assert_eq!(listed("action_scale")[15], "0.375");
-    let terms = [
-        "base_ang_vel",
-        "projected_gravity",
-        "velocity_commands",
-        "joint_pos_rel",
-        "joint_vel_rel",
-        "last_action",
-        "gait_phase",
-    ];
+    let terms = ["base_ang_vel", "projected_gravity", "command", "joint_pos", "joint_vel", "actions", "phase"];
     assert_eq!(listed("observation_names"), terms);
-    assert_eq!(listed("observation_scales"), ["1"; 7]);
+    assert_eq!(listed("observation_terms_scale"), ["1"; 7]);
+    assert_eq!(listed("observation_terms_history_length"), ["whole frames"; 7]);
     assert_eq!((&metadata(model, "history")[..], &metadata(model, "control_step_s")[..]), ("2", "0.02"));
     assert_eq!(metadata(model, "treadmill.observation"), "velocity");
 

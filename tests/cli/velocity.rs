@@ -169,3 +169,93 @@ fn a_robot_that_is_described_wrongly_is_refused_before_it_is_trained() {
         assert!(text.contains(part), "{part} in {text}");
     }
 }
+
+/// Settings of a training that ends within seconds.
+const BRIEF: [&str; 7] = [
+    "rollout.envs=8",
+    "rollout.fragment_steps=64",
+    "policy.hidden=[32, 32]",
+    "ppo.batch=512",
+    "ppo.minibatch=256",
+    "ppo.epochs=2",
+    "ppo.batch_growth_steps=0",
+];
+
+#[test]
+fn a_robot_without_a_card_is_understood_and_trained() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
+    let brief = set(&BRIEF);
+    let train = |model: &str, run: &str, more: &[&str]| {
+        let args =
+            ["train", "--task", "velocity", "--model", model, "--steps", "512", "--actors", "1", "--run-dir", run];
+        run_with(folder, &[&args, &brief, more, &["--no-progress"]])
+    };
+    let trained = train("robot.xml", "found", &["--set", "velocity.gait_period_s=0.9"]);
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    let config: toml::Table = fs::read_to_string(folder.join("found/config.toml")).unwrap().parse().unwrap();
+    let report = last_json(&run(folder, &["robot", "robot.xml", "--json"]));
+    let length = report["leg_length_m"].as_f64().unwrap() / 0.657;
+    let number = |section: &str, key: &str| config[section][key].as_float().unwrap();
+    // The swing's height scales with the legs, velocities with their root, and a key that is given stays.
+    assert!((number("velocity", "swing_height_m") / (0.08 * length) - 1.0).abs() < 5e-3, "{config}");
+    let forward_mps = config["velocity"]["lin_vel_x_mps"][1].as_float().unwrap();
+    assert!((forward_mps / length.sqrt() - 1.0).abs() < 5e-3, "{forward_mps}");
+    assert_eq!((number("velocity", "gait_period_s"), number("env", "control_step_s")), (0.9, 0.02));
+    // The legs have six hinges each, and the rest is held.
+    let played = last_json(&run(folder, &["eval", "found", "--episodes", "1", "--json"]));
+    assert!(played["velocity_error_mps"].is_number(), "{played}");
+    let text = stdout(&run(folder, &["robot", "robot.xml", "--draft", "card.toml"]));
+    for part in
+        ["legs       ", "at home    on the ground: left_foot, right_foot", "symmetry   each hinge has a mirror image"]
+    {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let card = fs::read_to_string(folder.join("card.toml")).unwrap();
+    assert!(card.starts_with("model = \"robot.xml\"") && card.contains("held = true") && card.contains("# "), "{card}");
+    // So does the built-in humanoid, without a file.
+    let built_in = ["train", "--task", "velocity", "--steps", "512", "--actors", "1", "--run-dir", "built-in"];
+    assert!(run_with(folder, &[&built_in, &brief, &["--no-progress"]]).status.success());
+    // The card trains the same robot, the file plays the policy, and the run goes on with either.
+    let again = train("card.toml", "by-card", &[]);
+    assert!(again.status.success(), "{}", stderr(&again));
+    let with_file = run(folder, &["eval", "found", "--episodes", "1", "--json", "--model", "robot.xml"]);
+    assert_eq!(last_json(&with_file)["return_mean"], played["return_mean"]);
+    let resumed =
+        ["train", "--resume", "found", "--model", "robot.xml", "--steps", "1024", "--actors", "1", "--no-progress"];
+    assert!(run(folder, &resumed).status.success());
+    let twice = run(folder, &["robot", "card.toml", "--draft", "other.toml"]);
+    assert_refused(&twice, 2, &["--draft", "`card.toml` has a card already"]);
+    let again = run(folder, &["robot", "robot.xml", "--draft", "card.toml"]);
+    assert_refused(&again, 2, &["--draft card.toml", "it exists"]);
+
+    // A policy keeps the card that it was trained with, also where the file alone begins another run.
+    let edited = card.replacen("action_scale_rad = 0.3", "action_scale_rad = 0.21", 1);
+    assert_ne!(edited, card);
+    fs::write(folder.join("edited.toml"), edited).unwrap();
+    assert!(train("edited.toml", "edited", &[]).status.success());
+    let warm = train("robot.xml", "warm", &["--init-from", "edited"]);
+    assert!(warm.status.success(), "{}", stderr(&warm));
+    assert!(fs::read_to_string(folder.join("warm/model.xml")).unwrap().contains("action_scale_rad = 0.21"));
+
+    // A service has one command line for all of its starts.
+    let service = |steps: &str| {
+        let args = ["train", "--preset", "velocity", "--model", "robot.xml", "--actors", "1", "--run-dir", "service"];
+        run_with(folder, &[&args, &brief, &["--steps", steps, "--resume-or-start", "--no-progress"]])
+    };
+    for steps in ["512", "1024"] {
+        assert!(service(steps).status.success(), "{}", stderr(&service(steps)));
+    }
+
+    fs::write(folder.join("blind.xml"), HOPPER).unwrap();
+    let refused = train("blind.xml", "never", &[]);
+    assert_refused(&refused, 2, &["blind.xml", "`feet` of the card", "robot blind.xml --draft card.toml"]);
+    assert!(!folder.join("never").exists());
+}
+
+/// Trunk on one leg.
+const HOPPER: &str = r#"<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint/><geom type="sphere" size="0.1"/>
+    <body name="leg"><joint name="hip" axis="0 1 0" range="-30 30"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.9" size="0.05"/></body></body></worldbody>
+    <actuator><motor joint="hip" gear="20"/></actuator></mujoco>"#;

@@ -2,6 +2,7 @@
 //! files in Python.
 
 mod actor;
+mod peers;
 #[path = "../support/mod.rs"]
 mod support;
 mod transfer;

@@ -10,7 +10,7 @@ use std::{
     sync::OnceLock,
 };
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use support::*;
 
 /// Packages with robots' files, and their versions.
@@ -109,6 +109,24 @@ fn text(path: &Path) -> &str {
     path.to_str().expect("a path of text")
 }
 
+/// Feet of files without a card, the left one first.
+const FEET: &[(&str, [&str; 2])] = &[
+    ("unitree_g1/scene_mjx.xml", ["left_ankle_roll_link", "right_ankle_roll_link"]),
+    ("unitree_h1/scene.xml", ["left_ankle_link", "right_ankle_link"]),
+    ("booster_t1/scene.xml", ["left_foot_link", "right_foot_link"]),
+    ("berkeley_humanoid/scene.xml", ["ll_faa", "lr_faa"]),
+    ("robotis_op3/scene.xml", ["l_ank_roll_link", "r_ank_roll_link"]),
+    ("apptronik_apollo/scene.xml", ["l_foot_link", "r_foot_link"]),
+    ("g1/g1_29dof.xml", ["left_ankle_roll_link", "right_ankle_roll_link"]),
+    ("t1/t1_29dof.xml", ["left_foot_link", "right_foot_link"]),
+    ("g1/g1_29dof.urdf", ["left_ankle_roll_link", "right_ankle_roll_link"]),
+    ("t1/t1_29dof.urdf", ["left_foot_link", "right_foot_link"]),
+    ("talos_data/robots/talos_full_v2.urdf", ["leg_left_6_link", "leg_right_6_link"]),
+    ("romeo_description/urdf/romeo.urdf", ["l_ankle", "r_ankle"]),
+    ("bolt_description/robots/bolt.urdf", ["FL_FOOT", "FR_FOOT"]),
+    ("iCubGazeboV2_5/model.urdf", ["l_foot", "r_foot"]),
+];
+
 /// Settings under which every one of these robots counts as upright.
 const UPRIGHT: [&str; 4] = ["--set", "env.healthy_z_range=[0.05, 5.0]", "--set", "env.observation=compact"];
 
@@ -131,6 +149,17 @@ fn every_file_is_understood_and_its_drafted_card_too() {
         assert_eq!(report["hinges"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
         assert_eq!(report["motors"].as_array().map(Vec::len), Some(motors), "{}", file.display());
 
+        if let Some((_, feet)) = FEET.iter().find(|(end, _)| file.ends_with(end)) {
+            assert_eq!(report["feet"], json!(feet), "{}", file.display());
+            assert_eq!(report["faults"], json!([]), "{}", file.display());
+            // Servos of some files give way.
+            let warnings = report["warnings"].as_array().expect("a list");
+            let odd = warnings.iter().filter(|warning| !warning.as_str().is_some_and(|text| text.contains("sags by")));
+            assert_eq!(odd.count(), 0, "{}: {warnings:?}", file.display());
+            assert_eq!(report["axes"], json!({"forward": "+x", "up": "+z"}), "{}", file.display());
+            let touching = report["on_ground_at_home"].as_array().expect("names");
+            assert!(feet.iter().all(|foot| touching.contains(&json!(foot))), "{touching:?}");
+        }
         let draft = stdout(&run(folder.path(), &["robot", text(&file)]));
         assert!(draft.contains(&format!("model = \"{}\"", file.display())), "{draft}");
         // A file without limits of torque cannot propose any, and one without shapes no height.
@@ -140,7 +169,9 @@ fn every_file_is_understood_and_its_drafted_card_too() {
         let report = reported(folder.path(), "card.toml", &[]);
         let of_card = report["hinges"].as_array().expect("hinges");
         assert!(of_card.iter().all(|hinge| hinge["effort_nm"].as_f64() > Some(0.0)), "{}", file.display());
-        assert_eq!(report["motors"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
+        let moved = of_card.iter().filter(|hinge| hinge["held"] == false).count();
+        assert_eq!(report["motors"].as_array().map(Vec::len), Some(moved), "{}", file.display());
+        assert!(moved == hinges || moved >= 6, "{}: the legs have {moved} hinges", file.display());
 
         // Random targets throw a robot apart whose file allows 1,000 N·m for 1 kg (Bolt), or 50,000 N·m (iCub).
         let is_limited = of_card.iter().all(|hinge| hinge["effort_nm"].as_f64() < Some(1000.0));
@@ -201,6 +232,20 @@ fn presets_train_their_robots_from_the_stock_files() {
             let yaml = fs::read_to_string(folder.path().join("deploy.yaml")).unwrap();
             assert!(yaml.starts_with("joint_ids_map: [7, 3, 4, 5, 10, 8, 0, 1, 2, 11]\n"), "{yaml}");
         }
+    }
+}
+
+#[test]
+fn walkers_train_from_their_files_alone() {
+    let robots = robots();
+    for end in ["berkeley_humanoid/scene.xml", "t1/t1_29dof.xml", "iCubGazeboV2_5/model.urdf"] {
+        let Some((file, ..)) = robots.iter().find(|(path, ..)| path.ends_with(end)) else { continue };
+        let (folder, run) = folders();
+        let args = ["train", "--task", "velocity", "--model", text(file), "--steps", "8192", "--json", "--no-progress"];
+        let trained = last_json(&done(folder.path(), &[&args[..], &["--run-dir", text(&run)]].concat()));
+        assert!(trained["env_steps"].as_u64() >= Some(8192), "{end}");
+        // They stand for a while at least: a robot that falls at once lasts for 20 steps.
+        assert!(trained["length_mean"].as_f64() > Some(30.0), "{end}: {trained}");
     }
 }
 

@@ -74,7 +74,7 @@ pub fn log_visuals(
     for (number, visual) in visuals.iter().enumerate() {
         let link = model.links.iter().find(|link| link.name == visual.link);
         let Some(link) = link.filter(|link| link.body == body) else { continue };
-        let pose = link.pose * visual.pose;
+        let pose = model.pose_in_file(link) * visual.pose;
         let [red, green, blue, _] = visual.colour.map(|share| (share * 255.0) as u8);
         let place = |vertex: &[f32; 3]| array(&(pose * Point3::from(vertex.map(f64::from))).coords);
         let mesh = Mesh3D::new(visual.vertices_m.iter().map(place))

@@ -1,7 +1,10 @@
 //! Examination of a robot where its episodes start: what would make a training learn nothing, found before it begins.
 
+mod sag;
+
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use self::sag::Sag;
 use crate::clearance;
 use crate::config::EnvironmentConfig;
 use crate::environment::Environment;
@@ -24,6 +27,8 @@ const DROP_NOTED_M: f64 = 0.1;
 const BELOW_FOOT_M: f64 = 0.03;
 /// Cosine of the angle, 45°, by which up and left may differ from the axes z and y of the base.
 const AXIS_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Vertical force of a point on the ground that counts (N).
+const TOUCH_N: f64 = 0.1;
 /// Time after the first contact in which other links than feet must not touch: later the robot may have fallen (s).
 const SETTLED_S: f64 = 0.1;
 
@@ -155,11 +160,12 @@ impl HomePose {
         if forward.x < AXIS_COSINE && self.up == "+z" {
             self.faults.push(format!(
                 "the robot faces the {} axis of its base `{}`, by the places of its feet `{}` (left) and `{}`; x must point \
-                 forward: turn the frame of this body in the model, or exchange the feet",
+                 forward: say `forward = \"{}\"` in its card, or exchange the feet",
                 nearest_axis(&forward),
                 name(0),
                 name(left),
-                name(right)
+                name(right),
+                nearest_axis(&forward)
             ));
         }
     }
@@ -175,21 +181,27 @@ impl HomePose {
         let step_s = environment.control_step_s();
         let (mut touches, mut others) = (vec![false; model.links.len()], Vec::new());
         let mut first_contact_s = None;
+        let mut sag = Sag::new(model);
         let steps = (SIMULATED_S / step_s).ceil() as u32;
         for step in 1..=steps {
             let outcome = environment.step(&action, &mut observation);
             let now_s = f64::from(step) * step_s;
-            for (link, touched) in touches.iter_mut().enumerate() {
-                if *touched || environment.physics().contact_wrench(link).0.z <= 1.0 {
+            let on_ground = environment.physics().contact_points().filter(|contact| contact.force_n.z.abs() > TOUCH_N);
+            let on_ground = on_ground.filter_map(|contact| match contact.links {
+                [Some(link), None] | [None, Some(link)] => Some(link),
+                _ => None,
+            });
+            for link in on_ground {
+                if std::mem::replace(&mut touches[link], true) {
                     continue;
                 }
-                *touched = true;
                 let since_s = now_s - *first_contact_s.get_or_insert(now_s);
                 let is_part = model.robot.as_ref().is_some_and(|robot| !robot.feet.contains(&link));
                 if since_s <= SETTLED_S && is_part {
                     others.push(model.links[link].name.as_str());
                 }
             }
+            sag.observe(model, environment.physics());
             if outcome.terminated {
                 if step <= STEPS_MIN {
                     let height_m = environment.physics().torso_height_m();
@@ -205,6 +217,7 @@ impl HomePose {
         }
         self.touching =
             (0..touches.len()).filter(|link| touches[*link]).map(|link| model.links[link].name.clone()).collect();
+        self.warnings.extend(sag.warnings(model));
         if !others.is_empty() {
             self.warnings.push(format!(
                 "`{}` touches the ground in the default pose, but is no foot; raise it, or add it to `feet`",
@@ -231,7 +244,7 @@ fn nearest_axis(vector: &Vector3<f64>) -> &'static str {
 }
 
 /// Returns the side in a name: 0 for left, 1 for right.
-fn side_of(name: &str) -> Option<usize> {
+pub(crate) fn side_of(name: &str) -> Option<usize> {
     let name = name.to_lowercase();
     let is = |word: &str, letter: &str| {
         name.contains(word) || name.split(|c: char| !c.is_ascii_alphanumeric()).any(|part| part == letter)

@@ -16,7 +16,7 @@ pub use preset::{PRESETS, preset};
 pub use sections::{
     BusConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RolloutConfig, RunConfig, TaskConfig,
 };
-pub use source::ConfigSource;
+pub use source::{ConfigSource, given_value};
 pub use treadmill_settings::{
     ChosenTask, ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind, KeyDoc,
     RandomisationConfig, RewardsConfig, Section, SectionDoc, VelocityConfig,

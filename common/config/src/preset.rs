@@ -2,17 +2,21 @@
 
 use super::ConfigError;
 
-/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units.
+/// Preset of a robot with a built-in card, or with one of its own for "". An action of 1 is four units, so that exploration
+/// begins with 0.66 units.
 macro_rules! velocity {
     ($card:literal) => {
+        concat!(velocity!(of $card), "push_mps = [0.0, 0.5]\n")
+    };
+    (of $card:literal) => {
         concat!(
             "[env]\ntask = \"velocity\"\nrobot = \"",
             $card,
             "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.05\n\
+             [policy]\ninit_log_std = -1.8\n[ppo]\nbatch_growth_steps = 1000000\n\
              [randomisation]\nmass_scale = [0.9, 1.1]\nfloor_friction_scale = [0.6, 1.3]\nmotor_scale = [0.9, 1.1]\n\
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
-             action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
-             [policy]\ninit_log_std = -1.8\n[ppo]\nbatch_growth_steps = 1000000\n"
+             action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\n"
         )
     };
 }
@@ -31,7 +35,8 @@ pub const PRESETS: &[(&str, &str)] = &[
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
          [learner]\ntable_every_updates = 4\nmetrics_every_ms = 0\n[bus]\nstats_every_ms = 500\n",
     ),
-    // Robots that follow velocity commands; each needs its model file.
+    // Robots that follow velocity commands; each needs its model file. Without a card its size sets more keys.
+    ("velocity", velocity!(of "")),
     ("g1", velocity!("g1")),
     ("g1-29", velocity!("g1-29")),
     // The same on generated ground, which the policy sees. The ankles of a G1 roll by 0.26 rad, so it cannot stand across a

@@ -97,8 +97,7 @@ impl ConfigSource {
     /// Adds one `key=value`; a value that is not TOML is a string.
     pub fn set(&mut self, pair: &str) -> Result<(), ConfigError> {
         let (key, text) = pair.split_once('=').ok_or_else(|| ConfigError::SetSyntax { given: pair.to_string() })?;
-        let value = parse_value(text).unwrap_or_else(|| Value::String(text.to_string()));
-        self.put(key.trim(), value, &Config::keys())
+        self.put(key.trim(), given_value(text), &Config::keys())
     }
 
     /// Adds one typed value.
@@ -131,6 +130,12 @@ impl ConfigSource {
             .insert(name.to_string(), value);
         Ok(())
     }
+}
+
+/// Returns the value of `key=value`: a text that is not TOML is a string.
+#[must_use]
+pub fn given_value(text: &str) -> Value {
+    parse_value(text).unwrap_or_else(|| Value::String(text.to_string()))
 }
 
 fn parse(text: &str, origin: &str) -> Result<Table, ConfigError> {

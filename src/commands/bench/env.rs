@@ -53,7 +53,7 @@ impl EnvArgs {
 pub fn run(args: &EnvArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let config = args.config()?;
     let file = args.model.model.as_deref();
-    let text = model::completed(&config, file, &args.model.file)?;
+    let text = model::completed(&config, file, &args.model.file, "")?;
     // Reports errors of the model file.
     model::environment(tasks, &config, &text, file)?;
     let environment = config.environment();

@@ -192,7 +192,7 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
         let config = configuration(args, Config::default())?;
         let file = args.model.model.as_deref();
         let environment =
-            model::environment(tasks, &config, &model::completed(&config, file, &args.model.file)?, file)?;
+            model::environment(tasks, &config, &model::completed(&config, file, &args.model.file, "")?, file)?;
         let action_size = environment.action_size();
         return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
@@ -203,8 +203,7 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(tasks, run, &policy, &config)?,
         Some(file) => {
-            let text =
-                model::in_order_of(&model::completed(&config, Some(file), &args.model.file)?, &policy.model_xml, file)?;
+            let text = model::for_policy(&config, file, &args.model.file, &policy.model_xml)?;
             let environment = model::environment(tasks, &config, &text, Some(file))?;
             check_fits(&policy, &environment, file)?;
             environment

@@ -47,7 +47,11 @@ pub(super) struct Contract {
     /// Terms of one observation, without those of the past and of the critic.
     pub terms: Vec<Term>,
     base: String,
+    /// Rotation from the frame of the file's base to the one that the policy knows, whose x axis points forward.
+    forward_wxyz: [f64; 4],
     feet: Vec<String>,
+    /// Pairs of bodies that do not touch each other.
+    excluded: Vec<[String; 2]>,
     /// Default height and orientation of the base.
     height_m: f64,
     orientation_wxyz: Vec<f64>,
@@ -80,10 +84,20 @@ impl Contract {
             held: of(true).map(joint).collect(),
             terms: terms(environment)?,
             base: model.links[0].name.clone(),
+            forward_wxyz: {
+                let turn = robot.forward.turn();
+                [turn.w, turn.i, turn.j, turn.k]
+            },
             feet: robot.feet.iter().map(|foot| model.links[*foot].name.clone()).collect(),
+            excluded: robot.excluded.iter().map(|pair| pair.map(|link| model.links[link].name.clone())).collect(),
             height_m: robot.default_position[2],
             orientation_wxyz: robot.default_position[3..7].to_vec(),
         }))
+    }
+
+    /// Returns whether the policy knows another frame of the base than the file.
+    pub fn turns_base(&self) -> bool {
+        self.forward_wxyz[0] < 1.0
     }
 
     /// Returns the duration of a control step (s).
@@ -97,14 +111,22 @@ impl Contract {
             self.joints.iter().map(|joint| number(joint).to_string()).collect::<Vec<_>>().join(",")
         };
         let names = |names: Vec<&str>| names.join(",");
+        let is_single = self.config.velocity.history == 1;
         let metadata = [
             ("joint_names", names(self.joints.iter().map(|joint| &joint.name[..]).collect())),
             ("joint_stiffness", listed(|joint| joint.kp)),
             ("joint_damping", listed(|joint| joint.kd)),
             ("default_joint_pos", listed(|joint| joint.default_rad)),
             ("action_scale", listed(|joint| joint.action_scale_rad)),
-            ("observation_names", names(self.terms.iter().map(|term| term.row.name).collect())),
-            ("observation_scales", names(vec!["1"; self.terms.len()])),
+            ("observation_names", names(self.terms.iter().map(|term| term.row.mjlab_name).collect())),
+            ("observation_terms_scale", names(vec!["1"; self.terms.len()])),
+            ("observation_terms_clip", names(vec!["-inf;inf"; self.terms.len()])),
+            // mjlab lists all frames of a term, then those of the next one, which is another layout than ours.
+            (
+                "observation_terms_history_length",
+                names(vec![if is_single { "0" } else { "whole frames" }; self.terms.len()]),
+            ),
+            ("command_names", "base_velocity".to_owned()),
             ("history", self.config.velocity.history.to_string()),
             ("control_step_s", self.control_step_s().to_string()),
             ("treadmill.contract", self.json().to_string()),
@@ -135,6 +157,8 @@ impl Contract {
             ("action_limit", json!(ACTION_MAX)),
             ("held_joints", lists(&self.held)),
             ("base_body", json!(self.base)),
+            ("excluded_bodies", json!(self.excluded)),
+            ("base_turn_wxyz", json!(self.forward_wxyz)),
             ("feet_bodies", json!(self.feet)),
             ("default_base_height_m", json!(self.height_m)),
             ("default_base_orientation_wxyz", json!(self.orientation_wxyz)),

@@ -92,6 +92,16 @@ pub fn run(args: &ExportArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         );
         return Err(Usage(why).into());
     }
+    if let (Some(contract), Some(_)) = (&contract, &args.deploy)
+        && contract.turns_base()
+    {
+        let why = format!(
+            "--deploy: the base of `{}` faces another way than its x axis (`forward` of its card), which Unitree's \
+             controllers do not know; leave --deploy out",
+            args.run
+        );
+        return Err(Usage(why).into());
+    }
     let given = [&args.onnx, &args.safetensors, &args.deploy, &args.ground].into_iter().flatten();
     let mut paths = BTreeSet::new();
     if let Some(path) = given.into_iter().find(|path| !paths.insert(*path)) {

@@ -9,7 +9,9 @@ use std::{
 
 use clap::Args;
 use treadmill_config::Config;
-use treadmill_humanoid::{EnvTask, EnvironmentConfig, HomePose, Model, Physics, TaskRegistry, card, mjcf};
+use treadmill_humanoid::{
+    EnvTask, EnvironmentConfig, HomePose, Model, ModelError, Physics, TaskRegistry, card::Proposal, mjcf,
+};
 use treadmill_render::{Camera, Picture, Scene, film};
 use treadmill_runtime::atomic_file;
 
@@ -35,6 +37,9 @@ pub struct RobotArgs {
     /// Complete the model by a built-in card: g1, g1-29, h1 or t1.
     #[arg(long, value_name = "NAME")]
     card: Option<String>,
+    /// Write the card that is found to a file, ready to edit, instead of standard output.
+    #[arg(long, value_name = "CARD.toml", conflicts_with_all = ["json", "card"])]
+    draft: Option<PathBuf>,
     /// Write a picture of the default pose.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
@@ -43,17 +48,33 @@ pub struct RobotArgs {
     json: bool,
 }
 
-/// Prints the report; for an MJCF or URDF file as comments of the card that it drafts.
+/// Prints the report; for an MJCF or URDF file as comments of the card that is found.
 pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     let mut config = Config::default();
     config.env.robot = args.card.clone().unwrap_or_default();
-    let text = model::completed(&config, Some(&args.file), &args.files)?;
+    let text = model::completed(&config, Some(&args.file), &args.files, "")?;
     let robot = Model::without_motors(&text).map_err(|why| model::in_file(Some(&args.file), &why))?;
     let is_card = robot.robot.is_some();
+    let in_file = |why: &ModelError| model::in_file(Some(&args.file), why);
+    let proposal = if is_card { None } else { Some(Proposal::of(&robot).map_err(|why| in_file(&why))?) };
+    // With the card that is found, a walker is what `train --task velocity` trains.
+    let with_card = |found: &Proposal| {
+        let whole = mjcf::with_card(&text, &found.card)?;
+        Model::without_motors(&whole).map(|model| (whole, model))
+    };
+    let complete = proposal.as_ref().filter(|found| found.missing.is_empty()).map(with_card);
+    let (walker, shown) = match complete {
+        Some(Ok(walker)) => walker,
+        Some(Err(why)) => {
+            tracing::warn!("the card that was found must be edited: {why}");
+            (text.to_string(), robot.clone())
+        }
+        None => (text.to_string(), robot.clone()),
+    };
     let config = config.environment();
-    let mut physics = Physics::new(robot.clone(), &config).map_err(|why| model::in_file(Some(&args.file), &why))?;
-    let home = home(config, &text, is_card);
-    let position = match (&robot.robot, robot.keyframes.first()) {
+    let mut physics = Physics::new(shown.clone(), &config).map_err(|why| in_file(&why))?;
+    let home = home(config.clone(), &walker, shown.robot.is_some());
+    let position = match (&shown.robot, shown.keyframes.first()) {
         (Some(card), _) => card.default_position.clone(),
         (None, Some(key)) => key.position.clone(),
         (None, None) => robot.nominal_position(),
@@ -67,21 +88,35 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     // Numbers of links and hinges are those with all hinges at zero.
     let mut at_zero = robot.nominal_position();
     at_zero[7..].fill(0.0);
+    let mut physics = Physics::new(robot.clone(), &config).map_err(|why| in_file(&why))?;
     physics.set_state(&at_zero, &vec![0.0; robot.velocity_size()]);
     // Nothing but a viewer needs them.
     let meshes = mjcf::visual_meshes(&args.file, &args.files.files()).map_or(0, |meshes| meshes.len());
     if args.json {
-        say(&report::json(&physics, &text, meshes, home.as_ref()).to_string());
+        say(&report::json(&physics, &shown, &text, meshes, home.as_ref()).to_string());
         return Ok(());
     }
-    let lines = report::lines(&robot, &text, &args.file, meshes, home.as_ref());
-    if is_card {
+    let lines = report::lines(&robot, &shown, &text, &args.file, meshes, home.as_ref());
+    let Some(proposal) = proposal else {
+        if args.draft.is_some() {
+            return Err(Usage(format!("--draft: `{}` has a card already; edit it", args.file.display())).into());
+        }
+        say(lines.trim_end());
+        return Ok(());
+    };
+    if let Some(path) = &args.draft {
+        if path.exists() {
+            return Err(Usage(format!("--draft {}: it exists; name another file", path.display())).into());
+        }
+        let card = proposal.draft(&from_folder_of(&args.file, path));
+        atomic_file::write(path, card.as_bytes()).map_err(|why| Usage(format!("--draft {}: {why}", path.display())))?;
         say(lines.trim_end());
         return Ok(());
     }
-    let file = from_standard_output(&args.file);
+    let file = fs::read_link("/proc/self/fd/1").ok().filter(|card| card.is_file());
+    let file = file.map_or_else(|| args.file.display().to_string(), |card| from_folder_of(&args.file, &card));
     let comments: String = lines.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
-    say(&format!("{comments}\n{}", card::draft(&robot, &file).trim_end()));
+    say(&format!("{comments}\n{}", proposal.draft(&file).trim_end()));
     Ok(())
 }
 
@@ -93,13 +128,11 @@ fn home(mut config: EnvironmentConfig, text: &str, is_card: bool) -> Option<Home
     HomePose::of(&config, text, &TaskRegistry::default()).ok()
 }
 
-/// Returns the path of a file as the card on standard output names it: from the folder of the card, if that is a file.
-fn from_standard_output(file: &Path) -> String {
-    let Ok(whole) = fs::canonicalize(file) else { return file.display().to_string() };
-    let card = fs::read_link("/proc/self/fd/1").ok().filter(|card| card.is_file());
-    let folder = card.as_deref().and_then(Path::parent).and_then(|folder| fs::canonicalize(folder).ok());
-    match folder {
-        Some(folder) => whole.strip_prefix(folder).unwrap_or(&whole).display().to_string(),
-        None => file.display().to_string(),
+/// Returns the path of a model file as a card names it: from the folder of the card, if the file is below that.
+fn from_folder_of(file: &Path, card: &Path) -> String {
+    let folder = card.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (fs::canonicalize(file), fs::canonicalize(folder)) {
+        (Ok(whole), Ok(folder)) => whole.strip_prefix(folder).unwrap_or(&whole).display().to_string(),
+        _ => file.display().to_string(),
     }
 }

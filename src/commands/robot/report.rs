@@ -5,11 +5,16 @@ use std::{collections::BTreeMap, fmt::Write, path::Path};
 use serde_json::{Value, json};
 use treadmill_humanoid::{
     HomePose, Mirror, Model, Physics,
+    card::BodySize,
     model::{Geometry, Hinge, HingeControl, Motor},
 };
 
-/// Returns the report of a model that was read from `file`, which has so many visual meshes.
-pub fn lines(model: &Model, text: &str, file: &Path, meshes: usize, home: Option<&HomePose>) -> String {
+/// Difference between the sides of a robot that is worth a word (m).
+const APART_NOTED_M: f64 = 1e-4;
+
+/// Returns the report of a model that was read from `file`, which has so many visual meshes; `walker` is the same with a
+/// card.
+pub fn lines(model: &Model, walker: &Model, text: &str, file: &Path, meshes: usize, home: Option<&HomePose>) -> String {
     let mut lines = String::new();
     let mut line = |name: &str, what: String| {
         let _ = writeln!(lines, "{name:<10} {what}");
@@ -42,6 +47,9 @@ pub fn lines(model: &Model, text: &str, file: &Path, meshes: usize, home: Option
         let feet: Vec<&str> = robot.feet.iter().map(|foot| model.links[*foot].name.as_str()).collect();
         line("feet", feet.join(", "));
     }
+    if let Ok(size) = BodySize::of(walker) {
+        line("legs", format!("{:.3} m from the ground to the hips, for {:.0} N", size.leg_length_m, size.weight_n));
+    }
     if let Some(home) = home {
         let forward = home.forward.map(|axis| format!("{axis} forward, ")).unwrap_or_default();
         line("axes", format!("of the base: {forward}{} up", home.up));
@@ -51,8 +59,14 @@ pub fn lines(model: &Model, text: &str, file: &Path, meshes: usize, home: Option
     }
     let names: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
     line("bodies", joined(&names));
-    match Mirror::of(model) {
-        Ok(_) => line("symmetry", "each hinge has a mirror image".to_owned()),
+    match Mirror::of(walker) {
+        Ok(mirror) => {
+            let differ = match mirror.apart_m > APART_NOTED_M {
+                true => format!("; its sides differ by up to {:.1} mm, which is neglected", 1000.0 * mirror.apart_m),
+                false => String::new(),
+            };
+            line("symmetry", format!("each hinge has a mirror image{differ}"));
+        }
         Err(why) => line("symmetry", format!("none: {why}")),
     }
     for note in &model.simplifications {
@@ -174,8 +188,8 @@ impl HingeFacts {
     }
 }
 
-/// Returns the report as JSON; poses are those of all hinges at zero, in the world.
-pub fn json(physics: &Physics, text: &str, meshes: usize, home: Option<&HomePose>) -> Value {
+/// Returns the report as JSON; poses are those of all hinges at zero, in the world. `walker` is the model with a card.
+pub fn json(physics: &Physics, walker: &Model, text: &str, meshes: usize, home: Option<&HomePose>) -> Value {
     let model = physics.model();
     let links: Vec<Value> = model
         .links
@@ -219,12 +233,13 @@ pub fn json(physics: &Physics, text: &str, meshes: usize, home: Option<&HomePose
         "mass_kg": model.mass_kg(),
         "root": model.links[0].name,
         "height_m": model.nominal_position()[2],
+        "leg_length_m": BodySize::of(walker).ok().map(|size| size.leg_length_m),
         "bodies": model.bodies.len(),
         "motors": model.motors.iter().map(|motor| motor.name.as_str()).collect::<Vec<_>>(),
         "shapes": model.bodies.iter().map(|body| body.shapes.len()).sum::<usize>(),
         "pairs": model.pairs.len(),
         "keyframes": model.keyframes.iter().map(|key| key.name.as_str()).collect::<Vec<_>>(),
-        "feet": model.robot.as_ref().map(|robot| {
+        "feet": walker.robot.as_ref().map(|robot| {
             robot.feet.iter().map(|foot| model.links[*foot].name.as_str()).collect::<Vec<_>>()
         }),
         "axes": home.map(|home| json!({"forward": home.forward, "up": home.up})),

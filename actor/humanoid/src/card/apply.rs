@@ -1,8 +1,10 @@
 //! A card applied to a model.
 
-use super::{HingeRule, RobotCard};
+use std::collections::HashSet;
+
+use super::{HingeRule, RobotCard, SelfContacts};
 use crate::error::ModelError;
-use crate::model::{Hinge, HingeControl, Model, Motor, Robot, counterpart};
+use crate::model::{Hinge, HingeControl, Model, Motor, Pair, Robot, ShapeIndex, counterpart};
 
 /// Share of the greatest torque that one unit of an action asks for, at rest.
 const ACTION_SHARE: f64 = 0.25;
@@ -33,21 +35,27 @@ impl RobotCard {
         {
             return refuse(format!("`base` is `{base}`, but the free joint belongs to `{}`", model.links[0].name));
         }
-        let feet: Result<Vec<usize>, ModelError> = self
-            .feet
-            .iter()
-            .map(|foot| {
-                let found = model.links.iter().position(|link| link.name == *foot);
-                found.ok_or_else(|| ModelError::Card(format!("`feet`: the model has no body `{foot}`")))
-            })
-            .collect();
         self.check_bounds()?;
-        let mut position = self.position(model)?;
+        let link = |key: &str, name: &String| {
+            let found = model.links.iter().position(|link| link.name == *name);
+            found.ok_or_else(|| ModelError::Card(format!("`{key}`: the model has no body `{name}`")))
+        };
+        let feet = self.feet.iter().map(|foot| link("feet", foot)).collect::<Result<Vec<usize>, ModelError>>()?;
+        let pair = |[one, other]: &[String; 2]| Ok([link("exclude", one)?, link("exclude", other)?]);
+        let mut excluded = self.exclude.iter().map(pair).collect::<Result<Vec<[usize; 2]>, ModelError>>()?;
         let rules = self.rules_of_hinges(&model.hinges)?;
+        if let (SelfContacts::Legs, [left, right]) = (self.self_contacts, &feet[..]) {
+            excluded.extend(but_of_legs(model, [*left, *right]));
+        }
+        exclude(model, &mut excluded);
+        model.turn_base(self.forward);
+        let mut position = self.position(model)?;
         self.check_symmetry(&model.hinges)?;
         self.check_motors(&model.hinges)?;
         let mut robot = Robot {
-            feet: feet?,
+            forward: self.forward,
+            feet,
+            excluded,
             symmetry: self.symmetry.clone(),
             motors: self.motors.clone(),
             default_position: Vec::new(),
@@ -92,6 +100,7 @@ impl RobotCard {
             ("[[hinges]]", self.rules.len(), RULES_MAX),
             ("symmetry", self.symmetry.len(), PAIRS_MAX),
             ("motors", self.motors.len(), RULES_MAX),
+            ("exclude", self.exclude.len(), RULES_MAX),
         ] {
             if count > most {
                 return refuse(format!("{what} has {count} entries, but at most {most} are supported"));
@@ -209,6 +218,42 @@ impl HingeRule {
         }
         Ok(())
     }
+}
+
+/// Returns the pairs of links that are not one of the left and one of the right leg.
+pub(super) fn but_of_legs(model: &Model, feet: [usize; 2]) -> Vec<[usize; 2]> {
+    let path = |foot: usize| -> Vec<usize> {
+        std::iter::successors(Some(model.links[foot].body), |body| model.bodies[*body].parent).collect()
+    };
+    let paths = feet.map(path);
+    // The body below the one that both legs hang on.
+    let hips = [0, 1].map(|leg: usize| paths[leg].iter().copied().rfind(|body| !paths[1 - leg].contains(body)));
+    let leg = |link: usize| hips.iter().position(|hip| hip.is_some_and(|hip| path(link).contains(&hip)));
+    let legs: Vec<Option<usize>> = (0..model.links.len()).map(leg).collect();
+    let of_both =
+        |[one, other]: &[usize; 2]| matches!((legs[*one], legs[*other]), (Some(one), Some(other)) if one != other);
+    let links = 0..model.links.len();
+    links.flat_map(|link| (0..link).map(move |other| [other, link])).filter(|pair| !of_both(pair)).collect()
+}
+
+/// Removes the pairs of shapes that belong to these pairs of links, and keeps those of `excluded` that had any.
+fn exclude(model: &mut Model, excluded: &mut Vec<[usize; 2]>) {
+    if excluded.is_empty() {
+        return;
+    }
+    let mut had = HashSet::new();
+    let wanted: HashSet<[usize; 2]> =
+        excluded.iter().flat_map(|[one, other]| [[*one, *other], [*other, *one]]).collect();
+    let pairs = std::mem::take(&mut model.pairs);
+    let mut touches = |pair: &Pair| {
+        let link = |of: ShapeIndex| model.link_of_shape(of.body, of.shape);
+        let links = pair.second.and_then(|second| Some([link(pair.first)?, link(second)?]));
+        let Some([one, other]) = links.filter(|links| wanted.contains(links)) else { return true };
+        had.insert([one.min(other), one.max(other)]);
+        false
+    };
+    model.pairs = pairs.into_iter().filter(&mut touches).collect();
+    excluded.retain(|[one, other]| had.contains(&[*one.min(other), *one.max(other)]));
 }
 
 /// Returns the servo of a hinge: of the card, or else of the model's motor.

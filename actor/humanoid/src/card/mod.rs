@@ -20,12 +20,13 @@
 //! [`crate::mjcf`].
 
 mod apply;
-mod draft;
+mod automatic;
 
 use serde::Deserialize;
 
-pub use self::draft::draft;
+pub use self::automatic::{BodySize, Proposal};
 use crate::error::ModelError;
+use crate::model::BaseAxis;
 
 /// Robot card as written.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -36,9 +37,18 @@ pub struct RobotCard {
     pub model: String,
     /// Body of the free joint, if it must be checked.
     pub base: Option<String>,
+    /// Axis of the base's frame that points forward; that frame is turned so that it becomes x.
+    #[serde(default)]
+    pub forward: BaseAxis,
     /// Bodies that carry the robot.
     #[serde(default)]
     pub feet: Vec<String>,
+    /// Pairs of bodies that do not touch each other, such as parts whose shapes overlap in the default pose.
+    #[serde(default)]
+    pub exclude: Vec<[String; 2]>,
+    /// Which bodies of the robot touch each other.
+    #[serde(default)]
+    pub self_contacts: SelfContacts,
     /// Keyframe of the default pose; without it all hinges are at zero where no rule says otherwise.
     pub keyframe: Option<String>,
     /// Height of the root in the default pose (m); replaces that of the keyframe or text.
@@ -54,6 +64,17 @@ pub struct RobotCard {
     /// Rules about hinges.
     #[serde(default, rename = "hinges")]
     pub rules: Vec<HingeRule>,
+}
+
+/// Contacts of a robot with itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SelfContacts {
+    /// Those of the file.
+    #[default]
+    All,
+    /// Of those only the ones between the left and the right leg, since contacts of meshes take time.
+    Legs,
 }
 
 /// Properties of all hinges whose name matches.

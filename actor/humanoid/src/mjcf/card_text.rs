@@ -24,8 +24,19 @@ pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
     with_card(text, card)
 }
 
+/// Returns the text of the card in a model text; `None` without one, or if the text is no model.
+#[must_use]
+pub fn card_of(text: &str) -> Option<String> {
+    let document = xml::parse(text).ok()?;
+    let mut texts = xml::sections(document.root_element(), "custom").flat_map(|custom| custom.children());
+    texts.find(is_card)?.attribute("data").map(str::to_owned)
+}
+
 /// Returns a model text with a card in it.
-pub(crate) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
+///
+/// # Errors
+/// [`ModelError`] if the text is not XML.
+pub fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
     let attributes = [("name", CARD_TEXT), ("data", card)].map(|(name, value)| (name.to_owned(), value.to_owned()));
     let mut element = String::new();
     xml::write(&mut element, "text", &attributes);

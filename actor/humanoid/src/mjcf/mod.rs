@@ -38,7 +38,7 @@ mod xml;
 
 use std::collections::BTreeMap;
 
-pub use self::card_text::with_built_in;
+pub use self::card_text::{card_of, with_built_in, with_card};
 pub use self::embed::read_model_file;
 pub use self::order::in_order_of;
 pub use self::urdf::ModelFiles;

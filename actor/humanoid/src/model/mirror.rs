@@ -8,12 +8,17 @@ use super::robot::counterpart;
 /// For each entry of a mirrored vector, the index and the sign of the original entry that it holds.
 pub type SignedPermutation = Vec<(usize, f32)>;
 
-/// Greatest distance of a hinge from the mirror image of its counterpart (m), and least cosine between their axes:
-/// files round.
-const APART_MAX_M: f64 = 5e-3;
-const COSINE_MIN: f64 = 1.0 - 1e-4;
+/// Greatest distance of a hinge from the mirror image of its counterpart (m), and least cosine between their axes, 2.6°:
+/// files round, and some real robots differ a little from left to right.
+const APART_MAX_M: f64 = 0.01;
+const COSINE_MIN: f64 = 1.0 - 1e-3;
+/// Greatest difference between the masses of two counterparts that are found by their places, as a share.
+const MASS_MAX: f64 = 0.2;
 
 /// Reflection in the plane y = 0 of a model whose hinges come in pairs of a left and a right one or lie in the plane.
+///
+/// Counterparts are those that the card names, else those whose names differ in their side, else those at the mirrored place
+/// with the mirrored axis, about the same mass, and counterparts as parents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
     /// Reflection of the position vector.
@@ -24,33 +29,55 @@ pub struct Mirror {
     pub action: SignedPermutation,
     /// Index of each link's image.
     pub links: Vec<usize>,
+    /// Greatest distance of a hinge from the image of its counterpart (m), which the mirror neglects.
+    pub apart_m: f64,
 }
 
 impl Mirror {
-    /// Returns the reflection of a model. Masses and shapes are not compared.
+    /// Returns the reflection of a model. Masses and shapes of counterparts by name are not compared.
     ///
     /// # Errors
     /// A message that names the first hinge or motor without a mirror image.
     pub fn of(model: &Model) -> Result<Self, String> {
         let places = places(model);
         let names: Vec<&str> = model.hinges.iter().map(|hinge| &*hinge.name).collect();
-        let mut hinges = Vec::new();
-        for (hinge, (anchor_m, axis)) in model.hinges.iter().zip(&places) {
-            let image = image(&hinge.name, &names, model);
-            let name = &model.hinges[image].name;
-            let (other_m, other_axis) = &places[image];
-            let apart_m = (Vector3::new(anchor_m.x, -anchor_m.y, anchor_m.z) - other_m.coords).norm();
-            // An axis is a pseudo-vector: a reflection inverts its components in the plane and keeps the one across.
-            let cosine = other_axis.dot(&axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0)));
-            if cosine.abs() < COSINE_MIN || apart_m > APART_MAX_M {
-                return Err(match *name == hinge.name {
-                    true => {
-                        format!("hinge `{name}` has no counterpart on the other side, and does not lie in the plane")
-                    }
-                    false => format!("hinge `{name}` is not the mirror image of `{}`", hinge.name),
-                });
+        let (mut hinges, mut largest_m) = (Vec::new(), 0.0_f64);
+        // Images of the bodies so far; parents are before their children.
+        let mut bodies: Vec<usize> = vec![0; model.bodies.len()];
+        for (body, of) in model.bodies.iter().enumerate() {
+            for hinge in of.hinges.clone() {
+                let name = names[hinge];
+                let by_name = image(name, &names, model);
+                let offset = |image: usize| offset(&places[hinge], &places[image]);
+                let fits = |image: usize| {
+                    let (apart_m, cosine) = offset(image);
+                    apart_m <= APART_MAX_M && cosine.abs() >= COSINE_MIN
+                };
+                let by_place = || {
+                    let is_like = |other: &usize| is_counterpart(model, &bodies, body, body_of(model, *other));
+                    let mut alike: Vec<usize> = (0..names.len()).filter(|other| fits(*other)).filter(is_like).collect();
+                    alike.sort_by(|one, other| offset(*one).0.total_cmp(&offset(*other).0));
+                    alike.first().copied()
+                };
+                let is_held = model.robot.as_ref().is_some_and(|robot| robot.hinges[hinge].is_held);
+                // No policy moves a hinge that is held, so it may lie beside the plane, as a head does.
+                let image = Some(by_name).filter(|image| fits(*image)).or_else(by_place);
+                let image = image.or_else(|| Some(by_name).filter(|_| is_held));
+                let Some(image) = image else {
+                    return Err(match by_name == hinge {
+                        true => {
+                            format!(
+                                "hinge `{name}` has no counterpart on the other side, and does not lie in the plane"
+                            )
+                        }
+                        false => format!("hinge `{}` is not the mirror image of `{name}`", names[by_name]),
+                    });
+                };
+                let (apart_m, cosine) = offset(image);
+                largest_m = largest_m.max(apart_m);
+                bodies[body] = body_of(model, image);
+                hinges.push((image, cosine.signum() as f32));
             }
-            hinges.push((image, cosine.signum() as f32));
         }
         let mut action = Vec::new();
         for motor in &model.motors {
@@ -63,14 +90,46 @@ impl Mirror {
         // Position x, y, z, then quaternion w, x, y, z, whose vector part is a pseudo-vector.
         let root_position = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0];
         let root_velocity = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
-        let names: Vec<&str> = model.links.iter().map(|link| &*link.name).collect();
         Ok(Self {
             position: with_root(&root_position, &hinges),
             velocity: with_root(&root_velocity, &hinges),
             action,
-            links: names.iter().map(|name| image(name, &names, model)).collect(),
+            links: (0..model.links.len()).map(|link| link_image(model, &bodies, link)).collect(),
+            apart_m: largest_m,
         })
     }
+}
+
+/// Returns how far the mirror image of a place is from another one (m), and the cosine between its axis and the other's.
+fn offset((anchor_m, axis): &Place, (other_m, other_axis): &Place) -> (f64, f64) {
+    let apart_m = (Vector3::new(anchor_m.x, -anchor_m.y, anchor_m.z) - other_m.coords).norm();
+    // An axis is a pseudo-vector: a reflection inverts its components in the plane and keeps the one across.
+    (apart_m, other_axis.dot(&axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0))))
+}
+
+fn body_of(model: &Model, hinge: usize) -> usize {
+    model.bodies.iter().position(|body| body.hinges.contains(&hinge)).unwrap_or_default()
+}
+
+/// Returns whether a body may be the image of another one, given the images of those before it.
+fn is_counterpart(model: &Model, images: &[usize], body: usize, other: usize) -> bool {
+    let (of_body, of_other) = (&model.bodies[body], &model.bodies[other]);
+    let masses_kg = [of_body.mass_kg, of_other.mass_kg];
+    let are_alike = (masses_kg[0] - masses_kg[1]).abs() <= MASS_MAX * masses_kg[0].max(masses_kg[1]);
+    are_alike && of_body.parent.map(|parent| images[parent]) == of_other.parent
+}
+
+/// Returns the image of a link: by its name, or else the link at the same place of its body's image.
+fn link_image(model: &Model, images: &[usize], link: usize) -> usize {
+    let names: Vec<&str> = model.links.iter().map(|link| &*link.name).collect();
+    let body = model.links[link].body;
+    let by_name = image(names[link], &names, model);
+    if model.links[by_name].body == images[body] {
+        return by_name;
+    }
+    let of = |body: usize| (0..names.len()).filter(move |link| model.links[*link].body == body);
+    let place = of(body).position(|other| other == link).unwrap_or_default();
+    of(images[body]).nth(place).unwrap_or(link)
 }
 
 fn with_root(root: &[f32], hinges: &[(usize, f32)]) -> SignedPermutation {
@@ -78,8 +137,11 @@ fn with_root(root: &[f32], hinges: &[(usize, f32)]) -> SignedPermutation {
     own.chain(hinges.iter().map(|(image, sign)| (root.len() + image, *sign))).collect()
 }
 
-/// Returns anchor (m) and axis of each hinge in the root's frame, with all hinges at zero.
-fn places(model: &Model) -> Vec<(Point3<f64>, Vector3<f64>)> {
+/// Anchor (m) and axis of a hinge.
+type Place = (Point3<f64>, Vector3<f64>);
+
+/// Returns where each hinge is in the root's frame, with all hinges at zero.
+fn places(model: &Model) -> Vec<Place> {
     let mut poses: Vec<Isometry3<f64>> = Vec::new();
     for body in &model.bodies {
         poses.push(body.parent.map_or(Isometry3::identity(), |parent| poses[parent] * body.pose));

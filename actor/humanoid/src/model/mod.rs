@@ -13,6 +13,7 @@ mod pair;
 mod quantity;
 mod robot;
 mod softness;
+mod turn;
 
 use std::ops::Range;
 
@@ -26,6 +27,7 @@ pub(crate) use self::robot::counterpart;
 pub use self::robot::{HingeControl, Robot};
 pub use self::softness::Softness;
 pub(crate) use self::softness::SolverNumbers;
+pub use self::turn::BaseAxis;
 
 /// Most tendons; a bound because every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;

@@ -1,10 +1,16 @@
 //! What a robot card says of a model.
 
+use super::BaseAxis;
+
 /// What a card says of a model, resolved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
+    /// Axis of the base's frame in the file that points forward, where x is now, see [`super::Model::turn_base`].
+    pub forward: BaseAxis,
     /// Links that carry the robot, as indices of [`super::Model::links`].
     pub feet: Vec<usize>,
+    /// Pairs of links that do not touch each other, as indices of [`super::Model::links`].
+    pub excluded: Vec<[usize; 2]>,
     /// Names of a left and a right hinge, see [`crate::card::RobotCard::symmetry`].
     pub symmetry: Vec<[String; 2]>,
     /// Hinges in the order of the robot's motors, see [`crate::card::RobotCard::motors`].

@@ -1,6 +1,6 @@
 //! Robot cards: what they change in a model, drafts, and mistakes.
 
-use treadmill_humanoid::card::{RobotCard, draft};
+use treadmill_humanoid::card::{Proposal, RobotCard};
 use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Mirror, Model, ModelFiles};
 
 use crate::support::changed;
@@ -117,9 +117,13 @@ fn a_card_travels_in_the_text_of_its_model() {
 }
 
 #[test]
-fn a_draft_keeps_servos_proposes_others_and_is_a_card() {
-    let model = Model::from_mjcf(LEGS).expect("valid");
-    let text = draft(&model, "legs \"1\".xml");
+fn a_draft_of_a_robot_without_legs_keeps_servos_and_proposes_others() {
+    // One leg stands 0.1 m higher, so that the robot has no two feet.
+    let uneven = changed(LEGS, "pos='0 -0.1 -0.2'", "pos='0 -0.1 -0.1'");
+    let model = Model::from_mjcf(&uneven).expect("valid");
+    let proposal = Proposal::of(&model).expect("it can be simulated");
+    assert!(proposal.missing[0].contains("`feet` of the card"), "{:?}", proposal.missing);
+    let text = proposal.draft("legs \"1\".xml");
     let card = RobotCard::parse(&text).expect("valid");
     assert_eq!((card.model.as_str(), card.keyframe.as_deref()), ("legs \"1\".xml", Some("crouch")));
     let names: Vec<&str> = card.rules.iter().map(|rule| rule.names.as_str()).collect();
@@ -131,10 +135,10 @@ fn a_draft_keeps_servos_proposes_others_and_is_a_card() {
     assert!((kp - 78.9568).abs() < 1e-3 && (kd - 5.026_55).abs() < 1e-4, "{kp} {kd}");
     assert_eq!(card.rules[1].effort_nm, None, "the model has no limit, which the draft says in a comment");
     assert!(text.contains("# effort_nm"), "{text}");
-    let missing = applied(LEGS, &text).expect_err("no limit of torque");
+    let missing = applied(&uneven, &text).expect_err("no limit of torque");
     assert!(missing.contains("left_knee") && missing.contains("effort_nm"), "{missing}");
     let complete = text.replace("# effort_nm = 50.0", "effort_nm = 50.0");
-    assert_eq!(applied(LEGS, &complete).expect("it fits").motors.len(), 4);
+    assert_eq!(applied(&uneven, &complete).expect("it fits").motors.len(), 4);
 }
 
 #[test]
@@ -146,8 +150,12 @@ fn names_of_the_sides_give_the_mirror_image() {
         let mirror = Mirror::of(&model).map(|mirror| mirror.position[7..].to_vec());
         assert_eq!(mirror, Ok(vec![(9, 1.0), (10, 1.0), (7, 1.0), (8, 1.0)]), "{left}");
     }
+    // Names without sides: the places decide.
     let (text, card) = (renamed(LEGS, "LL_", "LR_"), renamed(CARD, "LL_", "LR_"));
-    let why = Mirror::of(&applied(&text, &card).expect("it fits")).expect_err("unknown names");
+    let mirror = Mirror::of(&applied(&text, &card).expect("it fits")).expect("by the places");
+    assert_eq!(mirror.position[7..], [(9, 1.0), (10, 1.0), (7, 1.0), (8, 1.0)]);
+    let apart = changed(&text, "pos='0 -0.1 -0.2'", "pos='0 -0.15 -0.2'");
+    let why = Mirror::of(&applied(&apart, &card).expect("it fits")).expect_err("5 cm apart");
     assert!(why.contains("LL_hip"), "{why}");
     let card = changed(&card, "height_m", "symmetry = [['LL_*', 'LR_*']]\nheight_m");
     let model = applied(&text, &card).expect("it fits");

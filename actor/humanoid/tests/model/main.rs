@@ -2,6 +2,7 @@
 
 mod actuators;
 mod assets;
+mod automatic;
 mod cards;
 mod contacts;
 mod files;

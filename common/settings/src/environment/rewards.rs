@@ -42,7 +42,7 @@ macro_rules! rewards {
 rewards! {
     /// exp(-e²/velocity.tracking_variance) of the error e of the horizontal velocity in the heading frame (m/s).
     track_linear_velocity = 2.0;
-    /// The same of the yaw rate (rad/s).
+    /// exp(-e²/velocity.yaw_tracking_variance) of the error e of the yaw rate (rad/s).
     track_yaw_rate = 1.5;
     /// 1 in each step that is no fall.
     alive = 0.3;

@@ -28,8 +28,10 @@ section! {
         gait_rests_after_s: f64 = 0.0, "0 to 10" => |v| (0.0..=10.0).contains(v);
         /// Height to which a swinging foot is lifted, in metres, above the highest ground within 0.2 m of it.
         swing_height_m: f64 = 0.08, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// Squared error of a velocity at which its tracking reward falls to 1/e.
+        /// Squared error of the horizontal velocity at which its tracking reward falls to 1/e (m²/s²).
         tracking_variance: f64 = 0.1, "0.0001 to 100" => |v| (1e-4..=100.0).contains(v);
+        /// The same of the yaw rate (rad²/s²).
+        yaw_tracking_variance: f64 = 0.1, "0.0001 to 100" => |v| (1e-4..=100.0).contains(v);
         /// Share of the standing height below which the robot has fallen.
         fall_height_share: f64 = 0.6, "0 to 0.95" => |v| (0.0..=0.95).contains(v);
         /// Tilt of the base above which the robot has fallen, in rad.

@@ -124,11 +124,12 @@ impl VelocityTask {
             .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
             .collect();
         let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
+        let standing = BaseMotion::new(default, physics.velocity(), 0.0);
         let body = Stance {
             default_rad: default[7..].to_vec(),
             pose_weights: pose_weights(physics),
             height_m: default[2],
-            capture_point_m: capture_point_m(physics, feet_links, 0.0),
+            capture_point_m: capture_point_m(physics, feet_links, standing.heading_rad),
             may_lift_higher: ground.is_some(),
         };
         let standing = |foot: usize| match &ground {

@@ -15,8 +15,10 @@ use crate::randomisation::SensorNoise;
 /// Term of the observation.
 #[derive(Clone, Copy, Debug)]
 pub struct TermRow {
-    /// Name, as in Isaac Lab and mjlab.
+    /// Name, as in Isaac Lab and `deploy.yaml`.
     pub name: &'static str,
+    /// Name in the metadata of mjlab's ONNX files.
+    pub mjlab_name: &'static str,
     /// Unit of its entries.
     pub unit: &'static str,
     /// Frame of its entries.
@@ -72,6 +74,7 @@ impl TermRow {
     const fn new(name: &'static str, unit: &'static str, frame: &'static str, entries: Entries, write: Write) -> Self {
         Self {
             name,
+            mjlab_name: name,
             unit,
             frame,
             deploy_params: |_| "{}".to_owned(),
@@ -90,6 +93,11 @@ impl TermRow {
     /// Leaves the term out of some configurations.
     const fn only_if(self, is_observed: fn(&EnvironmentConfig) -> bool) -> Self {
         Self { is_observed, ..self }
+    }
+
+    /// Names the term as mjlab does.
+    const fn with_mjlab_name(self, mjlab_name: &'static str) -> Self {
+        Self { mjlab_name, ..self }
     }
 
     const fn with_deploy_params(self, deploy_params: fn(&VelocityConfig) -> String) -> Self {
@@ -113,21 +121,25 @@ pub const TERMS: &[TermRow] = &[
         Entries::Signs(&[1.0, -1.0, -1.0]),
         |view, _, write| view.task.command.numbers().into_iter().for_each(write),
     )
+    .with_mjlab_name("command")
     .with_deploy_params(|_| "{command_name: base_velocity}".to_owned()),
     TermRow::new("joint_pos_rel", "rad", "joint", Entries::Joints, |view, noise, write| {
         for (hinge, default_rad, _) in &view.task.motors {
             let error_rad = view.task.encoder_errors_rad[*hinge] + noise.position();
             write(view.physics.joint_angles()[*hinge] - default_rad + error_rad);
         }
-    }),
+    })
+    .with_mjlab_name("joint_pos"),
     TermRow::new("joint_vel_rel", "rad/s", "joint", Entries::Joints, |view, noise, write| {
         for (hinge, _, _) in &view.task.motors {
             write(view.physics.joint_rates()[*hinge] + noise.velocity());
         }
-    }),
+    })
+    .with_mjlab_name("joint_vel"),
     TermRow::new("last_action", "action_scale", "joint", Entries::Joints, |view, _, write| {
         view.task.actions.iter().copied().for_each(write);
-    }),
+    })
+    .with_mjlab_name("actions"),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
         let (sin, cos) = match view.task.hides_phase() {
@@ -136,6 +148,7 @@ pub const TERMS: &[TermRow] = &[
         };
         [sin, cos].into_iter().for_each(write);
     })
+    .with_mjlab_name("phase")
     .with_deploy_params(|config| match config.gait_rests {
         true => format!(
             "{{period: {:?}, command_threshold: {STANDING_COMMAND:?}, command_threshold_delay: {:?}}}",

@@ -137,11 +137,6 @@ pub struct RobotStep<'a> {
 }
 
 impl RobotStep<'_> {
-    /// Returns exp(−squared error ÷ variance).
-    fn tracking(&self, squared_error: f64) -> f64 {
-        (-squared_error / self.config.tracking_variance).exp()
-    }
-
     fn numbered_feet(&self) -> impl Iterator<Item = (usize, &Foot)> {
         self.feet.iter().enumerate()
     }
@@ -167,13 +162,14 @@ impl RobotStep<'_> {
 impl RewardFunctions for RobotStep<'_> {
     fn track_linear_velocity(&self) -> f64 {
         let (velocity_mps, command) = (self.base.velocity_mps, self.command);
-        self.tracking(
-            (velocity_mps.x - command.lin_vel_x_mps).powi(2) + (velocity_mps.y - command.lin_vel_y_mps).powi(2),
-        )
+        let squared_error =
+            (velocity_mps.x - command.lin_vel_x_mps).powi(2) + (velocity_mps.y - command.lin_vel_y_mps).powi(2);
+        (-squared_error / self.config.tracking_variance).exp()
     }
 
     fn track_yaw_rate(&self) -> f64 {
-        self.tracking((self.base.yaw_rate_radps - self.command.ang_vel_z_radps).powi(2))
+        let squared_error = (self.base.yaw_rate_radps - self.command.ang_vel_z_radps).powi(2);
+        (-squared_error / self.config.yaw_tracking_variance).exp()
     }
 
     fn alive(&self) -> f64 {

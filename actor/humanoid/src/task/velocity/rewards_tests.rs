@@ -37,8 +37,13 @@ fn each_term_equals_its_value_by_hand() {
     model.hinges.truncate(2);
     (model.hinges[0].min_rad, model.hinges[0].max_rad) = (-1.0, 1.0);
     (model.hinges[1].min_rad, model.hinges[1].max_rad) = (f64::NEG_INFINITY, f64::INFINITY);
-    let config =
-        VelocityConfig { gait_period_s: 1.0, stance_share: 0.6, tracking_variance: 0.25, ..VelocityConfig::default() };
+    let config = VelocityConfig {
+        gait_period_s: 1.0,
+        stance_share: 0.6,
+        tracking_variance: 0.25,
+        yaw_tracking_variance: 0.5,
+        ..VelocityConfig::default()
+    };
     let body = Stance {
         default_rad: vec![0.5, 0.0],
         pose_weights: vec![1.0, 0.1],
@@ -88,7 +93,7 @@ fn each_term_equals_its_value_by_hand() {
     };
     let expected = [
         ("track_linear_velocity", (-0.25_f64 / 0.25).exp()),
-        ("track_yaw_rate", (-1.0_f64).exp()),
+        ("track_yaw_rate", (-0.5_f64).exp()),
         ("alive", 1.0),
         ("upright", 0.36),
         ("base_height", 0.01),
