@@ -16,22 +16,15 @@ import csv
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tomllib
+
+from obeys import last_line
 
 EPISODES = "100"
 GRAVITY_MPS2 = 9.81
 COLUMNS = ["robot", "seed", "steps", "seconds", "leg length (m)", "simulator", "velocity error (m/s)", "÷ √(g L)",
            "yaw rate error (rad/s)", "falls of 100"]  # fmt: skip
-
-
-def last_line(command):
-    """Runs a command and returns the JSON of its last line."""
-    run = subprocess.run(command, capture_output=True, text=True)
-    if run.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))} failed: {run.stderr.strip()}")
-    return json.loads(run.stdout.splitlines()[-1])
 
 
 def row(args, seed, trained, leg_length_m, simulator, found):

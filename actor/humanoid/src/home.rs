@@ -2,7 +2,7 @@
 
 mod sag;
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use self::sag::Sag;
 use crate::clearance;
@@ -150,7 +150,7 @@ impl HomePose {
                 .faults
                 .push(format!("`feet` wants the left foot first; `{}` seems to be the {side} one", name(index)));
         }
-        let origin_m = |link: usize| link_pose(model, physics, link).translation.vector;
+        let origin_m = |link: usize| physics.link_pose(link).translation.vector;
         let turn = physics.body_motion(0).pose.rotation * model.links[0].pose.rotation;
         let to_left = turn.inverse() * (origin_m(left) - origin_m(right));
         let to_left = Vector3::new(to_left.x, to_left.y, 0.0);
@@ -258,18 +258,7 @@ pub(crate) fn side_of(name: &str) -> Option<usize> {
 
 /// Returns whether `link` hangs on the rigid body of `above`, directly or by hinges.
 fn is_below(model: &Model, link: usize, above: usize) -> bool {
-    let mut body = Some(model.links[link].body);
-    while let Some(at) = body {
-        if at == model.links[above].body {
-            return link != above;
-        }
-        body = model.bodies[at].parent;
-    }
-    false
-}
-
-fn link_pose(model: &Model, physics: &Physics, link: usize) -> Isometry3<f64> {
-    physics.body_motion(model.links[link].body).pose * model.links[link].pose
+    link != above && model.upward(model.links[link].body).any(|body| body == model.links[above].body)
 }
 
 #[cfg(test)]

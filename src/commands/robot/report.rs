@@ -208,8 +208,7 @@ pub fn json(physics: &Physics, walker: &Model, text: &str, meshes: usize, home: 
         })
         .collect();
     let of_hinge = |(index, hinge): (usize, &Hinge)| {
-        let body = model.bodies.iter().position(|body| body.hinges.contains(&index)).unwrap_or(0);
-        let pose = physics.body_motion(body).pose;
+        let pose = physics.body_motion(model.body_of_hinge(index)).pose;
         let facts = HingeFacts::of(model, index);
         let limit = |limit_rad: f64| limit_rad.is_finite().then_some(limit_rad);
         json!({

@@ -222,9 +222,7 @@ impl HingeRule {
 
 /// Returns the pairs of links that are not one of the left and one of the right leg.
 pub(super) fn but_of_legs(model: &Model, feet: [usize; 2]) -> Vec<[usize; 2]> {
-    let path = |foot: usize| -> Vec<usize> {
-        std::iter::successors(Some(model.links[foot].body), |body| model.bodies[*body].parent).collect()
-    };
+    let path = |link: usize| -> Vec<usize> { model.upward(model.links[link].body).collect() };
     let paths = feet.map(path);
     // The body below the one that both legs hang on.
     let hips = [0, 1].map(|leg: usize| paths[leg].iter().copied().rfind(|body| !paths[1 - leg].contains(body)));

@@ -54,7 +54,7 @@ impl Mirror {
                     apart_m <= APART_MAX_M && cosine.abs() >= COSINE_MIN
                 };
                 let by_place = || {
-                    let is_like = |other: &usize| is_counterpart(model, &bodies, body, body_of(model, *other));
+                    let is_like = |other: &usize| is_counterpart(model, &bodies, body, model.body_of_hinge(*other));
                     let mut alike: Vec<usize> = (0..names.len()).filter(|other| fits(*other)).filter(is_like).collect();
                     alike.sort_by(|one, other| offset(*one).0.total_cmp(&offset(*other).0));
                     alike.first().copied()
@@ -75,7 +75,7 @@ impl Mirror {
                 };
                 let (apart_m, cosine) = offset(image);
                 largest_m = largest_m.max(apart_m);
-                bodies[body] = body_of(model, image);
+                bodies[body] = model.body_of_hinge(image);
                 hinges.push((image, cosine.signum() as f32));
             }
         }
@@ -105,10 +105,6 @@ fn offset((anchor_m, axis): &Place, (other_m, other_axis): &Place) -> (f64, f64)
     let apart_m = (Vector3::new(anchor_m.x, -anchor_m.y, anchor_m.z) - other_m.coords).norm();
     // An axis is a pseudo-vector: a reflection inverts its components in the plane and keeps the one across.
     (apart_m, other_axis.dot(&axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0))))
-}
-
-fn body_of(model: &Model, hinge: usize) -> usize {
-    model.bodies.iter().position(|body| body.hinges.contains(&hinge)).unwrap_or_default()
 }
 
 /// Returns whether a body may be the image of another one, given the images of those before it.

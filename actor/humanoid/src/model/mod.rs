@@ -258,6 +258,17 @@ impl Model {
         self.links.iter().position(|link| link.body == body && link.shapes.contains(&shape))
     }
 
+    /// Returns the rigid body that a hinge moves.
+    #[must_use]
+    pub fn body_of_hinge(&self, hinge: usize) -> usize {
+        self.bodies.iter().position(|body| body.hinges.contains(&hinge)).unwrap_or_default()
+    }
+
+    /// Returns a rigid body and those that it hangs on, up to the root.
+    pub fn upward(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(body), |body| self.bodies[*body].parent)
+    }
+
     /// Returns the mass of the whole robot (kg).
     #[must_use]
     pub fn mass_kg(&self) -> f64 {

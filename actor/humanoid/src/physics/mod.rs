@@ -11,7 +11,7 @@ mod variation;
 
 use std::sync::Arc;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 pub use self::motion::BodyMotion;
 use self::variation::VariableModel;
@@ -308,6 +308,13 @@ impl Physics {
     #[must_use]
     pub fn centre_of_mass_velocity(&self) -> Vector3<f64> {
         self.world.mean_over_mass(|body| body.linear_mps)
+    }
+
+    /// Returns where the frame of a link is in the world.
+    #[must_use]
+    pub fn link_pose(&self, link: usize) -> Isometry3<f64> {
+        let of = &self.model.links[link];
+        self.body_motion(of.body).pose * of.pose
     }
 
     /// Returns the mean contact force (N) on one link during the last control step, and its moment about the whole

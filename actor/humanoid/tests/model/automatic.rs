@@ -156,7 +156,7 @@ fn a_file_s_own_servo_stays_if_it_suits_the_robot() {
         assert!((knee(&other).kp / 113.0 - 1.0).abs() < 0.02 && knee(&other).kd > 3.0, "{what}: {:?}", knee(&other));
         assert!(proposal.card.contains(&format!("instead of the file's {kp}")), "{what}: {}", proposal.card);
     }
-    // A limit that is none.
+    // A limit that no motor reaches.
     let (_, proposal) = with("<motor joint='left_knee' gear='50000'/>");
     assert!(proposal.card.contains("the file's 50000.0 is no limit"), "{}", proposal.card);
 }

@@ -130,7 +130,7 @@ impl Legs {
 
 /// Returns the bodies from the root to `body`, the root first.
 fn path(model: &Model, body: usize) -> Vec<usize> {
-    let mut path: Vec<usize> = std::iter::successors(Some(body), |body| model.bodies[*body].parent).collect();
+    let mut path: Vec<usize> = model.upward(body).collect();
     path.reverse();
     path
 }
@@ -150,26 +150,20 @@ fn is_right(physics: &Physics, feet: [usize; 2]) -> bool {
 
 /// Returns where the frame of a link is, in that of the base (m).
 fn in_base(physics: &Physics, link: usize) -> Point3<f64> {
-    let of = &physics.model().links[link];
-    let place = physics.body_motion(of.body).pose * Point3::from(of.pose.translation.vector);
+    let place = Point3::from(physics.link_pose(link).translation.vector);
     physics.body_motion(0).pose.inverse_transform_point(&place)
-}
-
-/// Returns the body that a hinge moves.
-pub(super) fn body_of(model: &Model, hinge: usize) -> usize {
-    model.bodies.iter().position(|body| body.hinges.contains(&hinge)).unwrap_or_default()
 }
 
 /// Returns where a hinge is (m, world).
 pub(super) fn anchor_m(physics: &Physics, hinge: usize) -> Point3<f64> {
     let model = physics.model();
-    physics.body_motion(body_of(model, hinge)).pose * model.hinges[hinge].anchor_m
+    physics.body_motion(model.body_of_hinge(hinge)).pose * model.hinges[hinge].anchor_m
 }
 
 /// Returns the axis of a hinge (world).
 pub(super) fn axis(physics: &Physics, hinge: usize) -> Vector3<f64> {
     let model = physics.model();
-    let body = body_of(model, hinge);
+    let body = model.body_of_hinge(hinge);
     // Hinges of one body turn one after the other, so the later ones do not turn the axis.
     let later = (hinge + 1..model.bodies[body].hinges.end).rev();
     let turned = later.fold(UnitQuaternion::identity(), |turned, hinge| {

@@ -207,7 +207,7 @@ fn write_rules(card: &mut String, model: &Model, rules: &[Rule]) {
             line(card, "action_scale_rad", scale);
         }
         if let Some(default_rad) = default_rad {
-            // Beyond this, they are errors of the solver.
+            // Smaller digits are errors of the solver.
             let _ = writeln!(card, "default_rad = {}", short((default_rad * 1e6).round() / 1e6 + 0.0));
         }
         if servo.is_held {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Isometry3, Point3, Rotation3, UnitQuaternion, Vector3};
 
-use super::legs::{LegHinge, LegRole, Legs, anchor_m, axis, body_of};
+use super::legs::{LegHinge, LegRole, Legs, anchor_m, axis};
 use crate::clearance;
 use crate::physics::Physics;
 
@@ -94,18 +94,13 @@ fn reach(physics: &Physics, legs: &Legs, side: usize) -> f64 {
 }
 
 fn foot_m(physics: &Physics, legs: &Legs, side: usize) -> Point3<f64> {
-    Point3::from(foot_pose(physics, legs.feet[side]).translation.vector)
-}
-
-fn foot_pose(physics: &Physics, foot: usize) -> Isometry3<f64> {
-    let link = &physics.model().links[foot];
-    physics.body_motion(link.body).pose * link.pose
+    Point3::from(physics.link_pose(legs.feet[side]).translation.vector)
 }
 
 /// Returns the pose with bent legs; `None` if the hinges do not allow it.
 fn bent(physics: &mut Physics, legs: &Legs) -> Option<Vec<f64>> {
     let start = physics.position().to_vec();
-    let upright = legs.feet.map(|foot| foot_pose(physics, foot));
+    let upright = legs.feet.map(|foot| physics.link_pose(foot));
     let length_m = [0, 1].map(|side| length_m(physics, legs, side));
     let base = physics.body_motion(0).pose.rotation * Vector3::x();
     let ahead = Vector3::new(base.x, base.y, 0.0).try_normalize(1e-6)?;
@@ -160,7 +155,7 @@ fn approach(
     let mut error = DVector::zeros(6);
     for _ in 0..STEPS {
         set(physics, position);
-        let now = foot_pose(physics, legs.feet[side]);
+        let now = physics.link_pose(legs.feet[side]);
         let place = (target.translation.vector - now.translation.vector) / length_m;
         let turn = (target.rotation * now.rotation.inverse()).scaled_axis();
         error.fixed_rows_mut::<3>(0).copy_from(&place);
@@ -214,10 +209,9 @@ fn middle_of_feet_m(physics: &Physics, legs: &Legs, ahead: Vector3<f64>) -> f64 
 /// Returns the inertia that a hinge feels of what is on the lighter side of it, with its rotor (kg·m²).
 pub(super) fn felt_inertia_kgm2(physics: &Physics, hinge: usize) -> f64 {
     let model = physics.model();
-    let root = body_of(model, hinge);
+    let root = model.body_of_hinge(hinge);
     let (place, axis) = (anchor_m(physics, hinge), axis(physics, hinge));
-    let is_below =
-        |body: usize| std::iter::successors(Some(body), |body| model.bodies[*body].parent).any(|at| at == root);
+    let is_below = |body: usize| model.upward(body).any(|at| at == root);
     let mut sides = [0.0; 2];
     for (index, body) in model.bodies.iter().enumerate() {
         let pose = physics.body_motion(index).pose;
