@@ -29,9 +29,10 @@ COLUMNS = ["robot", "seed", "steps", "seconds", "leg length (m)", "simulator", "
 
 def row(args, seed, trained, leg_length_m, simulator, found):
     """Returns a row of the table from a simulator's summary."""
-    error_mps = found["velocity_error_mps"]
-    scaled = error_mps / (GRAVITY_MPS2 * leg_length_m) ** 0.5
-    numbers = [f"{error_mps:.3f}", f"{scaled:.3f}", f"{found['yaw_rate_error_radps']:.3f}", found["falls"]]
+    errors = [found["velocity_error_mps"], found["velocity_error_mps"], found["yaw_rate_error_radps"]]
+    units = [1.0, (GRAVITY_MPS2 * leg_length_m) ** 0.5, 1.0]
+    # A policy that always falls at once has no errors.
+    numbers = ["–" if error is None else f"{error / unit:.3f}" for error, unit in zip(errors, units)] + [found["falls"]]
     return [args.name, seed, trained["env_steps"], f"{trained['wall_s']:.0f}", f"{leg_length_m:.3f}", simulator, *numbers]
 
 
