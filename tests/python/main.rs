@@ -2,6 +2,7 @@
 //! files in Python.
 
 mod actor;
+mod mjcf;
 mod peers;
 #[path = "../support/mod.rs"]
 mod support;

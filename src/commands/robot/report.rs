@@ -43,6 +43,20 @@ pub fn lines(model: &Model, walker: &Model, text: &str, file: &Path, meshes: usi
     if !model.keyframes.is_empty() {
         line("keyframes", model.keyframes.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(", "));
     }
+    for coupling in &model.couplings {
+        let of = coupling.follows.map(|(other, ratio)| format!(" + {ratio} × `{}`", model.hinges[other].name));
+        let what = format!(
+            "`{}` = {:.3} rad{}",
+            model.hinges[coupling.hinge].name,
+            coupling.offset_rad,
+            of.unwrap_or_default()
+        );
+        line("coupled", what);
+    }
+    for connection in &model.connections {
+        let [one, other] = connection.links.map(|link| &model.links[link].name);
+        line("loop", format!("`{one}` and `{other}` stay together in one point"));
+    }
     if let Some(robot) = &model.robot {
         let feet: Vec<&str> = robot.feet.iter().map(|foot| model.links[*foot].name.as_str()).collect();
         line("feet", feet.join(", "));
@@ -219,6 +233,9 @@ pub fn json(physics: &Physics, walker: &Model, text: &str, meshes: usize, home: 
             "max_rad": limit(hinge.max_rad),
             "armature_kgm2": hinge.armature_kgm2,
             "damping_nmsprad": hinge.damping_nmsprad,
+            "damping_powers": hinge.damping_powers,
+            "stiffness_nmprad": hinge.stiffness_nmprad,
+            "stiffness_powers": hinge.stiffness_powers,
             "friction_loss_nm": hinge.friction_loss_nm,
             "kp": facts.kp,
             "kd": facts.kd,
@@ -245,6 +262,8 @@ pub fn json(physics: &Physics, walker: &Model, text: &str, meshes: usize, home: 
         "on_ground_at_home": home.map(|home| &home.touching),
         "faults": home.map(|home| &home.faults),
         "warnings": home.map(|home| &home.warnings),
+        "couplings": model.couplings.len(),
+        "connections": model.connections.len(),
         "hinges": model.hinges.iter().enumerate().map(of_hinge).collect::<Vec<_>>(),
         "links": links,
         "simplified": model.simplifications,

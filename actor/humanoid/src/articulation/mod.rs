@@ -17,4 +17,4 @@ pub(crate) use self::mass_matrix::MassMatrix;
 pub(crate) use self::posture::{BodyMasses, Posture, compose, integrate};
 #[cfg(test)]
 pub(crate) use self::responses::Responses;
-pub(crate) use self::structure::{Coordinate, ROOT_DOFS, ROOT_POSITIONS, Structure};
+pub(crate) use self::structure::{ConnectionNode, Coordinate, ROOT_DOFS, ROOT_POSITIONS, Structure};

@@ -6,15 +6,16 @@ use nalgebra::Vector3;
 
 use super::mass_matrix::MassMatrix;
 use super::posture::{BodyMasses, Posture};
-use super::structure::{Coordinate, ROOT_DOFS, Structure};
+use super::structure::{ConnectionNode, Coordinate, ROOT_DOFS, Structure, ascending};
 use crate::lanes::{Lanes, Scalar, Vec3};
-use crate::model::{Model, Softness};
+use crate::model::{Connection, Model, Softness};
 
 impl Structure {
     pub(crate) fn new(model: &Model) -> Self {
         let mut structure = Self::without_responses(model);
         let mut responses = Responses::new(model, &structure);
         structure.coordinates = structure.coordinates_of(model, &responses);
+        structure.connections = structure.connections_of(model, &responses);
         structure.link_responses = responses.links;
         structure.hinge_responses = responses.dofs.split_off(ROOT_DOFS);
         structure
@@ -25,6 +26,7 @@ impl Structure {
             terms: Vec::new(),
             dofs: Vec::new(),
             hinge: None,
+            is_fixed: false,
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
             limit_margin: 0.0,
@@ -66,12 +68,49 @@ impl Structure {
             ..none.clone()
         });
         let mut all: Vec<Coordinate> = hinges.chain(tendons).chain(root).collect();
+        // One constraint is for the nearer limit; where both may act, the upper one has its own.
+        let upper: Vec<_> = all
+            .iter_mut()
+            .filter(|coordinate| coordinate.max - coordinate.min < 2.0 * coordinate.limit_margin)
+            .map(|coordinate| {
+                let max = std::mem::replace(&mut coordinate.max, f64::INFINITY);
+                Coordinate { hinge: None, min: f64::NEG_INFINITY, max, friction_loss: 0.0, ..coordinate.clone() }
+            })
+            .collect();
+        let couplings = model.couplings.iter().map(|coupling| {
+            let mut terms = vec![(ROOT_DOFS + coupling.hinge, 1.0)];
+            terms.extend(coupling.follows.map(|(hinge, ratio)| (ROOT_DOFS + hinge, -ratio)));
+            // Like MuJoCo, without regard to the ratio.
+            let response = terms.iter().map(|(dof, _)| responses.dofs[*dof]).sum();
+            let softness = coupling.softness;
+            Coordinate {
+                terms,
+                is_fixed: true,
+                min: coupling.offset_rad,
+                limit_softness: softness,
+                response,
+                ..none.clone()
+            }
+        });
+        all.extend(upper.into_iter().chain(couplings));
         for coordinate in &mut all {
-            coordinate.dofs = coordinate.terms.iter().flat_map(|(dof, _)| self.path(*dof)).copied().collect();
-            coordinate.dofs.sort_unstable();
-            coordinate.dofs.dedup();
+            coordinate.dofs = ascending(coordinate.terms.iter().flat_map(|(dof, _)| self.path(*dof)));
         }
         all
+    }
+
+    fn connections_of(&self, model: &Model, responses: &Responses) -> Vec<ConnectionNode> {
+        let node = |connection: &Connection| {
+            let bodies = connection.links.map(|link| model.links[link].body);
+            ConnectionNode {
+                bodies,
+                points_m: connection.points_m.map(|point| point.coords),
+                dofs: self.dofs_of_bodies(bodies.into_iter()),
+                softness: connection.softness,
+                response: connection.links.iter().map(|link| responses.links[*link]).sum(),
+            }
+        };
+        model.connections.iter().map(node).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! What all worlds of a model share: bodies, hinges, and degrees of freedom with their paths to the root.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -21,8 +22,10 @@ pub(crate) struct Structure {
     /// Viscous friction (N·s/m and N·m·s/rad) and additional inertia (kg and kg·m²) of the root.
     pub(crate) root_damping: f64,
     pub(crate) root_armature: f64,
-    /// Hinges, then tendons, then the root, as far as they may have limits or dry friction.
+    /// Hinges, then tendons, then the root, as far as they may have limits or dry friction, then couplings of hinges.
     pub(crate) coordinates: Vec<Coordinate>,
+    /// Points that stay together.
+    pub(crate) connections: Vec<ConnectionNode>,
     /// Method that solves for the forces of constraints.
     pub(crate) solver: Solver,
     /// Body of each link.
@@ -54,6 +57,8 @@ pub(crate) struct Node {
     pub(crate) hinges: Range<usize>,
     /// Centre of mass in this body's frame (m).
     pub(crate) centre_m: Vector3<f64>,
+    /// Share of its weight that is held up.
+    pub(crate) gravity_compensation: f64,
 }
 
 /// Hinge.
@@ -64,7 +69,11 @@ pub(crate) struct HingeNode {
     /// both are one point, or this is the body's first hinge.
     pub(crate) offset_m: Option<Vector3<f64>>,
     pub(crate) stiffness_nmprad: f64,
+    /// Of the square and the cube of the deflection.
+    pub(crate) stiffness_powers: [f64; 2],
     pub(crate) rest_rad: f64,
+    /// Whether viscous friction has other powers than the first.
+    pub(crate) has_damping_powers: bool,
 }
 
 /// Sum of degrees of freedom with weights that may have limits and dry friction: a hinge, a tendon, or a degree of
@@ -77,6 +86,8 @@ pub(crate) struct Coordinate {
     pub(crate) dofs: Vec<u32>,
     /// Hinge whose servo may reach the limit of its torque.
     pub(crate) hinge: Option<usize>,
+    /// Whether it must equal `min`.
+    pub(crate) is_fixed: bool,
     /// Range (rad); infinite without limits.
     pub(crate) min: f64,
     pub(crate) max: f64,
@@ -86,6 +97,19 @@ pub(crate) struct Coordinate {
     pub(crate) friction_loss: f64,
     pub(crate) friction_softness: Softness,
     /// Acceleration per force, see [`super::responses`].
+    pub(crate) response: f64,
+}
+
+/// Point of a body that stays at a point of another.
+#[derive(Clone, Debug)]
+pub(crate) struct ConnectionNode {
+    pub(crate) bodies: [usize; 2],
+    /// Points in the bodies' frames (m).
+    pub(crate) points_m: [Vector3<f64>; 2],
+    /// Degrees of freedom that move either body, in ascending order.
+    pub(crate) dofs: Vec<u32>,
+    pub(crate) softness: Softness,
+    /// Acceleration per force, see [`super::responses`] (1/kg).
     pub(crate) response: f64,
 }
 
@@ -133,6 +157,7 @@ impl Structure {
                     anchor_m: anchor(hinges.last()).coords,
                     hinges: body.hinges.clone(),
                     centre_m: body.centre_of_mass_m.coords,
+                    gravity_compensation: body.gravity_compensation,
                 }
             })
             .collect();
@@ -144,7 +169,9 @@ impl Structure {
                 axis: Axis::new(&hinge.axis),
                 offset_m: offset_from_hinge_before(model, index),
                 stiffness_nmprad: hinge.stiffness_nmprad,
+                stiffness_powers: hinge.stiffness_powers,
                 rest_rad: hinge.rest_rad,
+                has_damping_powers: hinge.damping_powers != [0.0; 2],
             })
             .collect();
         let (paths, path_starts, innermost_dofs) = build_paths(&nodes, model.hinges.len());
@@ -155,6 +182,7 @@ impl Structure {
             root_damping: model.root.damping,
             root_armature: model.root.armature,
             coordinates: Vec::new(),
+            connections: Vec::new(),
             solver: model.solver,
             link_bodies,
             link_responses: Vec::new(),
@@ -185,6 +213,11 @@ impl Structure {
         common
     }
 
+    /// Returns the degrees of freedom that move any of these bodies, in ascending order.
+    pub(crate) fn dofs_of_bodies(&self, bodies: impl Iterator<Item = usize>) -> Vec<u32> {
+        ascending(bodies.flat_map(|body| self.path_of_body(body)))
+    }
+
     /// Returns the degrees of freedom from the root to this one, inclusive.
     #[inline(always)]
     pub(crate) fn path(&self, dof: usize) -> &[u32] {
@@ -212,6 +245,11 @@ impl Structure {
     pub(crate) fn positions(&self) -> usize {
         ROOT_POSITIONS + self.hinges.len()
     }
+}
+
+/// Returns each of these degrees of freedom once, in ascending order.
+pub(super) fn ascending<'a>(dofs: impl Iterator<Item = &'a u32>) -> Vec<u32> {
+    dofs.copied().collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 /// Returns the paths of all degrees of freedom, the start of each, and the innermost degree of freedom of each body.

@@ -79,6 +79,7 @@ impl RobotCard {
             if control.is_held {
                 (hinge.stiffness_nmprad, hinge.rest_rad) = (control.kp, *angle_rad);
                 hinge.damping_nmsprad += control.kd;
+                hinge.stiffness_powers = [0.0; 2];
             } else {
                 motors.push(servo(index, hinge, *angle_rad, &control));
             }
@@ -273,11 +274,13 @@ fn control(model: &Model, hinge: usize, rule: &HingeRule) -> Result<HingeControl
         let wanted = "give `effort_nm`, above 0 and up to 1e6";
         return refuse(format!("hinge `{name}`: its effort is {effort_nm} N·m; {wanted}"));
     }
-    if rule.action_scale_rad.is_none() && kp == 0.0 {
+    let is_held = rule.held.unwrap_or(false);
+    if rule.action_scale_rad.is_none() && kp == 0.0 && !is_held {
         return refuse(format!("hinge `{name}`: `kp` is 0, so give its `action_scale_rad`"));
     }
-    let action_scale_rad = rule.action_scale_rad.unwrap_or(ACTION_SHARE * effort_nm / kp);
-    Ok(HingeControl { kp, kd, effort_nm, action_scale_rad, is_held: rule.held.unwrap_or(false) })
+    let by_rule = if kp == 0.0 { 0.0 } else { ACTION_SHARE * effort_nm / kp };
+    let action_scale_rad = rule.action_scale_rad.unwrap_or(by_rule);
+    Ok(HingeControl { kp, kd, effort_nm, action_scale_rad, is_held })
 }
 
 /// Returns a position servo whose targets surround the default angle.

@@ -53,7 +53,7 @@ pub(crate) struct PairNode {
     pub(super) second: Option<usize>,
     pub(crate) bodies: [Option<usize>; 2],
     pub(crate) links: [Option<usize>; 2],
-    pub(crate) friction: f64,
+    pub(crate) friction: [f64; 2],
     pub(crate) margin_m: f64,
     pub(crate) softness: Softness,
     /// Degrees of freedom that move either body, with their paths, in ascending order.
@@ -81,10 +81,7 @@ impl CollisionModel {
             let both = [Some(first), second];
             let links = both.map(|shape| shape.and_then(|shape| shapes[shape].link));
             let bodies = both.map(|shape| shape.map(|shape| shapes[shape].body));
-            let mut dofs: Vec<u32> =
-                bodies.iter().flatten().flat_map(|body| structure.path_of_body(*body)).copied().collect();
-            dofs.sort_unstable();
-            dofs.dedup();
+            let dofs = structure.dofs_of_bodies(bodies.iter().flatten().copied());
             let common = match bodies {
                 [Some(first), Some(second)] => structure.common_dofs(first, second),
                 _ => 0,

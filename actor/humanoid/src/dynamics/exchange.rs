@@ -34,6 +34,9 @@ impl<S: Simd> Group<S> {
             }
             for (index, (hinge, drive)) in self.forces.hinges.iter_mut().zip(&world.drives).enumerate() {
                 hinge.friction_nmsprad.set_lane(lane, parameters.damping_nmsprad[index]);
+                for (lanes, power) in hinge.friction_powers.iter_mut().zip(parameters.damping_powers[index]) {
+                    lanes.set_lane(lane, power);
+                }
                 hinge.armature_kgm2.set_lane(lane, parameters.armature_kgm2[index]);
                 hinge.torque_nm.set_lane(lane, drive.torque_nm);
                 hinge.stiffness_nmprad.set_lane(lane, drive.stiffness_nmprad);

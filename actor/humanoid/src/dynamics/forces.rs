@@ -13,6 +13,7 @@ pub(crate) struct HingeForces<S: Simd> {
     pub(crate) min_nm: Lanes<S>,
     pub(crate) max_nm: Lanes<S>,
     pub(crate) friction_nmsprad: Lanes<S>,
+    pub(crate) friction_powers: [Lanes<S>; 2],
     pub(crate) armature_kgm2: Lanes<S>,
     /// Motor torque of the present step without the hinge's acceleration (N·m).
     pub(crate) explicit_nm: Lanes<S>,
@@ -36,6 +37,7 @@ impl<S: Simd> HingeForces<S> {
             min_nm: zero,
             max_nm: zero,
             friction_nmsprad: zero,
+            friction_powers: [zero; 2],
             armature_kgm2: zero,
             explicit_nm: zero,
             implicit_kgm2: zero,
@@ -105,6 +107,19 @@ impl<S: Simd> Forces<S> {
                 + hinge.base_kgm2
                 + hinge.friction_nmsprad * (step_s / 2.0)
                 + angle.constant(node.stiffness_nmprad * step_s * step_s / 4.0);
+            if node.has_damping_powers {
+                let (speed, [square, cube]) = (rate.abs(), hinge.friction_powers);
+                hinge.passive_nm -= (cube * speed + square) * speed * rate;
+                self.diagonal[dof] += (cube * speed * 1.5 + square) * speed * step_s;
+            }
+            if let [square, cube] = node.stiffness_powers
+                && node.stiffness_powers != [0.0; 2]
+            {
+                let deflection = angle - node.rest_rad;
+                hinge.passive_nm -= (deflection * cube + square) * deflection * deflection;
+                let slope = (deflection * (3.0 * cube) + 2.0 * square) * deflection;
+                self.diagonal[dof] += slope.max(angle.constant(0.0)) * (step_s * step_s / 4.0);
+            }
         }
     }
 
@@ -154,6 +169,12 @@ impl<S: Simd> Forces<S> {
             let velocity = &self.velocities[index];
             let mut load = inertia.times(&self.accelerations[index]);
             load += velocity.cross_force(&inertia.times(velocity));
+            let held = structure.nodes[index].gravity_compensation;
+            if held != 0.0 {
+                let gravity =
+                    Motion { angular: Vec3::new(zero, zero, zero), linear: self.gravity_mps2 * zero.constant(held) };
+                load += inertia.times(&gravity);
+            }
             self.loads[index] = load;
         }
         for (index, node) in structure.nodes.iter().enumerate().skip(1).rev() {

@@ -57,9 +57,10 @@ impl<S: Simd> Momentum<S> {
     }
 }
 
-/// Whether gravity and contacts are all that acts on a robot as a whole.
+/// Whether gravity and contacts are all that acts on a robot as a whole, and nothing weighs less than its mass.
 pub(crate) fn is_free(structure: &Structure) -> bool {
     structure.root_damping == 0.0
         && structure.root_armature == 0.0
+        && structure.nodes.iter().all(|node| node.gravity_compensation == 0.0)
         && structure.coordinates.iter().all(|coordinate| coordinate.terms.iter().all(|(dof, _)| *dof >= ROOT_DOFS))
 }

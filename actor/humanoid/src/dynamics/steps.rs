@@ -173,6 +173,7 @@ impl<S: Simd> Group<S> {
         let before = self.momentum.force;
         let gravity = self.forces.gravity_mps2 * (mass * pass.step_s);
         self.momentum.force += gravity;
+        self.constraints.add_moments(&mut self.momentum.moment, zero.constant(pass.step_s));
         self.constraints.write_loads(&mut self.loads);
         for load in &self.loads {
             let force = load.force_n * zero.constant(pass.step_s);

@@ -39,6 +39,7 @@ pub(crate) struct Parameters {
     /// Centre of mass of the root body in its frame (m).
     pub(crate) root_centre_m: Vector3<f64>,
     pub(crate) damping_nmsprad: Vec<f64>,
+    pub(crate) damping_powers: Vec<[f64; 2]>,
     pub(crate) armature_kgm2: Vec<f64>,
     /// Factor on the friction coefficients of all contacts.
     pub(crate) friction_scale: f64,
@@ -129,6 +130,7 @@ impl Parameters {
             inertias_kgm2,
             root_centre_m,
             damping_nmsprad,
+            damping_powers,
             armature_kgm2,
             friction_scale,
             gravity_mps2,
@@ -137,6 +139,7 @@ impl Parameters {
         inertias_kgm2.copy_from_slice(&other.inertias_kgm2);
         *root_centre_m = other.root_centre_m;
         damping_nmsprad.copy_from_slice(&other.damping_nmsprad);
+        damping_powers.copy_from_slice(&other.damping_powers);
         armature_kgm2.copy_from_slice(&other.armature_kgm2);
         *friction_scale = other.friction_scale;
         *gravity_mps2 = other.gravity_mps2;
@@ -151,6 +154,7 @@ impl Parameters {
         copy(&mut self.masses_kg, &model.bodies, |body| body.mass_kg);
         copy(&mut self.inertias_kgm2, &model.bodies, |body| body.inertia_kgm2);
         copy(&mut self.damping_nmsprad, &model.hinges, |hinge| hinge.damping_nmsprad);
+        copy(&mut self.damping_powers, &model.hinges, |hinge| hinge.damping_powers);
         copy(&mut self.armature_kgm2, &model.hinges, |hinge| hinge.armature_kgm2);
         self.root_centre_m = model.bodies[0].centre_of_mass_m.coords;
         self.friction_scale = friction_scale;

@@ -68,7 +68,7 @@ impl Classes {
                 continue;
             }
             // Defaults of elements that are refused at every occurrence have no effect.
-            if is_inert(tag) || tag == "equality" {
+            if is_inert(tag) {
                 continue;
             }
             // Spatial tendons, which share these defaults, are refused.
@@ -109,8 +109,12 @@ impl Classes {
         ambient: Option<&str>,
         label: impl Into<String>,
     ) -> Result<Element, ModelError> {
-        let mut element = Element::of(node, label);
-        let name = node.attribute("class").or(ambient).unwrap_or(MAIN);
+        self.completed(Element::of(node, label), ambient)
+    }
+
+    /// Returns an element with its class's defaults.
+    pub(super) fn completed(&self, mut element: Element, ambient: Option<&str>) -> Result<Element, ModelError> {
+        let name = element.get("class").or(ambient).unwrap_or(MAIN);
         if let Some(under) = self.class(name, &element.label)?.and_then(|class| class.get(key(&element.tag))) {
             element.attributes = merge(&element.tag, under.attributes_for(&element.tag), element.attributes);
         }
@@ -128,16 +132,16 @@ impl Classes {
     }
 }
 
-/// Returns the key of a tag's defaults.
+/// Returns the key of a tag's defaults. Equalities, which share theirs, have tags like `equality/joint`.
 fn key(tag: &str) -> &str {
-    if ACTUATORS.contains(&tag) { ACTUATOR } else { tag }
+    if ACTUATORS.contains(&tag) { ACTUATOR } else { tag.split('/').next().unwrap_or(tag) }
 }
 
 impl Defaults {
     /// Returns the attributes as they hold for a tag. As in MuJoCo, an actuator of another kind takes ranges and gear, but
     /// not the gains, unless one of the two is `general`.
     fn attributes_for(&self, tag: &str) -> Vec<Attribute> {
-        if self.tag == tag || self.tag.is_empty() {
+        if self.tag == tag || self.tag.is_empty() || key(tag) != ACTUATOR {
             return self.attributes.clone();
         }
         let is_common = |(name, _): &&Attribute| ACTUATORS.iter().all(|kind| vocabulary::rule(kind, name).is_some());

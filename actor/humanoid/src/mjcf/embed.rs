@@ -12,9 +12,11 @@ use roxmltree::{Document, Node};
 
 use super::assets::{self, MOMENTS};
 use super::card_text::with_card;
+use super::compose;
 use super::defaults::Classes;
 use super::element::{self, Attribute, Element};
 use super::files::{self, AssetFiles};
+use super::notices;
 use super::urdf::{self, ModelFiles};
 use super::xml::{self, elements, sections};
 use crate::clearance;
@@ -38,7 +40,7 @@ use crate::physics::Physics;
 pub fn read_model_file(path: &Path, files: &ModelFiles) -> Result<String, ModelError> {
     let model = files::model_of(path)?;
     let folder = files::folder_of(&model);
-    let text = files::text_with_includes(&model)?;
+    let text = compose::whole_text(&model)?;
     let document = xml::parse(&text)?;
     let embedded = if urdf::is_urdf(&document) {
         let text = urdf::to_mjcf(&document, &model, files, false)?;
@@ -66,16 +68,19 @@ fn embed(document: &Document<'_>, folder: &Path) -> Result<String, ModelError> {
     let found = AssetFiles::of(document, folder)?;
     let wanted = wanted(document.root_element(), &found.classes)?;
     let (mut whole, mut done) = (String::with_capacity(text.len()), 0);
-    let mut masses = String::new();
+    let (mut custom, mut notes) = (String::new(), Vec::new());
     for (node, asset) in &found.assets {
         let (tag, name) = (node.tag_name().name(), &asset.label);
         let Some(path) = found.path_of(asset) else { continue };
         let Some(is_mass) = wanted.get(&(tag, name.clone())) else { continue };
         let numbers = if tag == "mesh" { mesh(asset, &path)? } else { heights(name, &path)? };
+        if let Some(kind) = files::unknown_to_mujoco(&path)? {
+            notes.push(format!("MuJoCo 4.0 does not read the file of mesh `{name}`, which is {kind}"));
+        }
         if *is_mass {
             let moments: Vec<String> = moments(asset, &path)?.numbers().iter().map(f64::to_string).collect();
             let data = [("name".to_owned(), format!("{MOMENTS}{name}")), ("data".to_owned(), moments.join(" "))];
-            xml::write(&mut masses, "numeric", &data);
+            xml::write(&mut custom, "numeric", &data);
         }
         let mut own = Element::of(*node, tag).attributes;
         own.retain(|(attribute, _)| !["name", "file", "nrow", "ncol", "content_type"].contains(&attribute.as_str()));
@@ -86,7 +91,8 @@ fn embed(document: &Document<'_>, folder: &Path) -> Result<String, ModelError> {
         done = node.range().end;
     }
     whole.push_str(&text[done..]);
-    if masses.is_empty() { Ok(whole) } else { xml::with_custom(&whole, &masses) }
+    notices::write(&mut custom, "mesh", &notes);
+    if custom.is_empty() { Ok(whole) } else { xml::with_custom(&whole, &custom) }
 }
 
 /// Assets that geoms need, by tag and name, and whether they give mass.

@@ -129,8 +129,9 @@ impl<'a> AssetFiles<'a> {
             }
         }
         let setting = |name: &str| sections(root, "compiler").filter_map(|compiler| compiler.attribute(name)).last();
-        // As in MuJoCo 4.0, `meshdir` is that of height fields, too, and precedes `assetdir`.
-        let subfolder = setting("meshdir").or(setting("assetdir")).unwrap_or_default();
+        // As in MuJoCo 4.0, `meshdir` is that of height fields, too; within one element it precedes `assetdir`.
+        let folder_of = |compiler: Node<'a, 'a>| compiler.attribute("meshdir").or(compiler.attribute("assetdir"));
+        let subfolder = sections(root, "compiler").filter_map(folder_of).last().unwrap_or_default();
         let are_paths_stripped = setting("strippath") == Some("true");
         Ok(Self { classes, folder: folder.join(subfolder), are_paths_stripped, assets })
     }
@@ -226,6 +227,15 @@ fn corner(word: &str, vertices: usize) -> Option<usize> {
 }
 
 /// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).
+/// Returns what kind of mesh file MuJoCo does not read, if it is one.
+pub(super) fn unknown_to_mujoco(path: &Path) -> Result<Option<&'static str>, ModelError> {
+    Ok(match () {
+        () if has_extension(path, &["dae"]) => Some("Collada"),
+        () if has_extension(path, &["stl"]) && !is_binary_stl(&read_bytes(path)?) => Some("an STL of text"),
+        () => None,
+    })
+}
+
 fn is_binary_stl(bytes: &[u8]) -> bool {
     let count = bytes.get(STL_HEADER..).and_then(|rest| rest.first_chunk::<4>()).copied().map(u32::from_le_bytes);
     count.is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + 4 + 50 * u64::from(count))

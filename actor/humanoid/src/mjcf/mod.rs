@@ -8,16 +8,20 @@
 //! - `element`, `vocabulary`, `defaults`, `pose`: attributes, their allowed values, default classes, and orientations.
 //! - `tree`: the whole text, checked, with defaults filled in.
 //! - `reader`: tree → model, with a file for each part: `geoms`, `floor`, `joints`, `mass`, `pairs`, `tendons`, `motors`,
-//!   `keyframes`, and `assets`.
+//!   `equalities`, `keyframes`, and `assets`.
 //! - `files`, `embed`, `visual`: files that a model names.
+//! - `compose`: `<replicate>` and `<attach>`.
 //! - `urdf`: URDF → MJCF text.
+//! - `notices`: what was read differently, what MuJoCo refuses, and what is ignored.
 //! - `card_text`: a robot card within a text.
 
 mod assets;
 pub(crate) mod card_text;
+mod compose;
 mod defaults;
 mod element;
 mod embed;
+mod equalities;
 mod files;
 mod floor;
 mod geoms;
@@ -25,6 +29,7 @@ mod joints;
 mod keyframes;
 mod mass;
 mod motors;
+mod notices;
 mod order;
 mod pairs;
 mod pose;
@@ -78,6 +83,6 @@ impl Model {
     #[must_use]
     pub fn ignored_elements(text: &str) -> BTreeMap<String, usize> {
         let document = xml::parse(text);
-        document.map(|document| tree::ignored(document.root_element())).unwrap_or_default()
+        document.map(|document| notices::ignored(document.root_element())).unwrap_or_default()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::defaults::{REPLACED, inherits_nothing};
 use super::element::Element;
+use super::joints::damping_powers;
 use crate::articulation::Structure;
 use crate::error::ModelError;
 use crate::model::{Hinge, Model, Motor, not_negative};
@@ -70,6 +71,18 @@ pub(super) fn read(actuator: &Element, hinges: &[Hinge], autolimits: bool) -> Re
         bias,
         force: force.unwrap_or(UNLIMITED),
     })
+}
+
+/// Adds an actuator's own friction and rotor inertia to its hinge: as in MuJoCo times the square of the gear, all powers of
+/// the friction alike.
+pub(super) fn add_rotor(actuator: &Element, motor: &Motor, hinge: &mut Hinge) -> Result<(), ModelError> {
+    let square = motor.gear_nm.powi(2);
+    hinge.armature_kgm2 += square * actuator.amount("armature", "armature (kg·m²)")?;
+    hinge.damping_nmsprad += square * actuator.amount("damping", "damping (N·m·s/rad)")?;
+    for (sum, power) in hinge.damping_powers.iter_mut().zip(damping_powers(actuator)?) {
+        *sum += square * power;
+    }
+    Ok(())
 }
 
 /// Returns the control range of a position servo with `inheritrange`: a multiple of its hinge's range.

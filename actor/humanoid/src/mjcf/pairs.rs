@@ -136,7 +136,7 @@ impl<'a> Source<'a> {
             }
         };
         let margin_m = one.shape.margin_m + other.shape.margin_m;
-        Pair { first, second, friction, margin_m, softness: solver.softness() }
+        Pair { first, second, friction: [friction; 2], margin_m, softness: solver.softness() }
     }
 
     fn read_explicit(&self) -> Result<BTreeMap<(ShapeIndex, Option<ShapeIndex>), Pair>, ModelError> {
@@ -184,18 +184,16 @@ fn share(weight: f64, other: f64) -> f64 {
 /// Reads the parameters of a `<pair>`; missing ones have MJCF's defaults, not those of the geoms.
 fn explicit_pair(element: &Element, first: ShapeIndex, second: Option<ShapeIndex>) -> Result<Pair, ModelError> {
     let has_friction = geoms::has_friction(element)?;
-    let [along, across] = element.list_over("friction", [1.0, 1.0]);
-    if has_friction && along != across {
-        let expected = "two equal coefficients of sliding: friction that depends on the direction is not simulated";
-        return Err(ModelError::attribute(&element.label, "friction", &format!("{along} {across}"), expected));
-    }
+    let friction = element.list_over("friction", [1.0, 1.0]);
     let margin_m = element.amount("margin", "margin (m)")?;
     if margin_m > 2.0 * MARGIN_MAX_M {
         return Err(ModelError::quantity(&element.label, "margin (m)", margin_m, "between 0 and 0.02"));
     }
-    let friction = not_negative(&element.label, "friction", along)?;
+    for coefficient in friction {
+        not_negative(&element.label, "friction", coefficient)?;
+    }
     let softness = element.softness(["solref", "solimp"])?.softness();
-    Ok(Pair { first, second, friction: if has_friction { friction } else { 0.0 }, margin_m, softness })
+    Ok(Pair { first, second, friction: if has_friction { friction } else { [0.0; 2] }, margin_m, softness })
 }
 
 #[cfg(test)]

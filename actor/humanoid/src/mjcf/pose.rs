@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Quaternion, Unit, UnitQuaternion, Vector3};
 
-use super::element::Element;
+use super::element::{Attribute, Element};
 
 /// Shortest axis, and cross product of axes, that is not zero.
 const LEAST: f64 = 1e-15;
@@ -84,6 +84,14 @@ impl Pose {
             + vector * (place_m.dot(&vector) * 2.0)
             + vector.cross(place_m) * (scalar * 2.0);
         Self { place_m: self.place_m + turned_m, turn: self.turn * inner.turn }
+    }
+
+    /// Returns the attributes that give this pose.
+    pub(super) fn attributes(&self) -> Vec<Attribute> {
+        let list = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+        let Quaternion { coords: turn } = self.turn;
+        let place = ("pos".to_owned(), list(self.place_m.as_slice()));
+        vec![place, ("quat".to_owned(), list(&[turn.w, turn.x, turn.y, turn.z]))]
     }
 
     pub(super) fn isometry(&self) -> Isometry3<f64> {

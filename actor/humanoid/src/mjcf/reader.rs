@@ -6,10 +6,11 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Matrix3, Point3};
 
 use super::element::Element;
+use super::equalities::EqualityReader;
 use super::floor::Floor;
 use super::pairs::{self, ContactRules, Exclusion, Party};
 use super::tree::{self, BodyNode, Tree};
-use super::{geoms, joints, keyframes, mass, motors, tendons, urdf, xml};
+use super::{geoms, joints, keyframes, mass, motors, notices, tendons, xml};
 use crate::error::ModelError;
 use crate::model::inertia::{self, MassProperties};
 use crate::model::{Body, Geometry, Hinge, Link, Model, RootJoint, Shape};
@@ -32,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     let tree = tree::read(&document)?;
     check_size(&tree.bodies)?;
     let mut reader = Reader::new(&tree);
-    reader.simplifications = urdf::notices(&document);
+    reader.simplifications = notices::of(&document);
     for (index, body) in tree.bodies.iter().enumerate() {
         reader.read_body(index, body)?;
     }
@@ -69,7 +70,7 @@ struct Reader<'a> {
     hinges: Vec<Hinge>,
     root: Option<RootJoint>,
     floor: Option<Floor>,
-    /// Parts of each rigid body's mass.
+    /// EqualityReader of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
     /// Contact parameters and MJCF body of each shape, as `[body][shape]`.
     rules: Vec<Vec<(ContactRules, usize)>>,
@@ -130,6 +131,10 @@ impl<'a> Reader<'a> {
             }
         }
         let parts = mass::parts_of_body(body, geom_masses, &placement.offset, compiler)?;
+        if body.gravity_compensation != self.bodies[owner].gravity_compensation && !parts.is_empty() {
+            let problem = "bodies that are welded together must have the same `gravcomp`";
+            return Err(ModelError::unsupported(name, problem));
+        }
         let shapes = first_shape..self.bodies[owner].shapes.len();
         self.links.push(link(name.clone(), owner, placement.offset, shapes, &parts));
         self.parts[owner].extend(parts);
@@ -150,8 +155,8 @@ impl<'a> Reader<'a> {
         if parent.is_none() {
             self.root = Some(self.read_root(body)?);
         } else {
-            for joint in &body.joints {
-                self.hinges.push(joints::read_hinge(joint, &self.tree.compiler)?);
+            for (joint, frame) in &body.joints {
+                self.hinges.push(joints::read_hinge(joint, frame, &self.tree.compiler)?);
             }
             pose *= joints::from_nominal(&self.hinges[first..])?;
         }
@@ -164,6 +169,7 @@ impl<'a> Reader<'a> {
             mass_kg: 0.0,
             centre_of_mass_m: Point3::origin(),
             inertia_kgm2: Matrix3::zeros(),
+            gravity_compensation: body.gravity_compensation,
         });
         self.parts.push(Vec::new());
         self.rules.push(Vec::new());
@@ -172,7 +178,7 @@ impl<'a> Reader<'a> {
 
     fn read_root(&self, body: &BodyNode) -> Result<RootJoint, ModelError> {
         let refuse = |problem: &str| Err(ModelError::unsupported(&body.name, problem));
-        let [joint] = &body.joints[..] else {
+        let [(joint, _)] = &body.joints[..] else {
             return refuse("the root must have one free joint and no other joint");
         };
         if !joints::is_free(joint) || body.parent != 0 {
@@ -269,6 +275,9 @@ impl<'a> Reader<'a> {
             let note = "its condim counts as 3, without torsional and rolling friction";
             self.simplifications.push(format!("{}: {note}", pair.label));
         }
+        let offsets: Vec<_> = self.placements.iter().map(|placed| placed.body.map(|_| placed.offset)).collect();
+        let parts = EqualityReader { tree, hinges: &self.hinges, links: &self.links, offsets: &offsets };
+        let (couplings, connections) = parts.read()?;
         let tendons = tendons::read(&tree.tendons, &self.hinges, autolimits)?;
         let motors = tree.actuators.iter().map(|actuator| motors::read(actuator, &self.hinges, autolimits));
         let motors = motors.collect::<Result<Vec<_>, _>>()?;
@@ -279,6 +288,8 @@ impl<'a> Reader<'a> {
             motors,
             links: self.links,
             tendons,
+            couplings,
+            connections,
             pairs,
             root,
             keyframes: Vec::new(),
@@ -288,6 +299,11 @@ impl<'a> Reader<'a> {
             simplifications: self.simplifications,
             ground: floor.into_ground(),
         };
+        for (actuator, motor) in tree.actuators.iter().zip(&model.motors) {
+            motors::add_rotor(actuator, motor, &mut model.hinges[motor.hinge])?;
+        }
+        let joints = tree.bodies.iter().flat_map(|body| &body.joints).map(|(joint, _)| joint);
+        joints::resolve_spring_dampers(joints, &mut model);
         motors::resolve_damping_ratios(&mut model)?;
         model.keyframes = keyframes::read(&model, &tree.keys)?;
         if let Some(card) = &tree.card {

@@ -2,15 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use roxmltree::{Document, Node};
 
-use super::assets::{self, Assets};
+use super::assets::Assets;
 use super::card_text;
 use super::defaults::{ACTUATORS, Classes};
-use super::element::Element;
+use super::element::{Element, numbers};
 use super::pose::{Angles, Pose};
-use super::urdf;
 use super::vocabulary::{self, is_inert};
 use super::xml::{elements, sections};
 use crate::card::RobotCard;
@@ -29,9 +28,21 @@ pub(super) struct Tree {
     /// Fixed tendons, each with its terms.
     pub(super) tendons: Vec<(Element, Vec<Element>)>,
     pub(super) actuators: Vec<Element>,
+    /// Equalities, with tags like `equality/joint`.
+    pub(super) equalities: Vec<Element>,
+    pub(super) sites: Vec<Site>,
     pub(super) keys: Vec<Element>,
     pub(super) assets: Assets,
     pub(super) card: Option<RobotCard>,
+}
+
+/// Site, which only an equality may need.
+pub(super) struct Site {
+    pub(super) name: String,
+    /// Index of its body.
+    pub(super) body: usize,
+    /// Place in the body (m), if the site itself gives it.
+    pub(super) point_m: Option<Point3<f64>>,
 }
 
 /// An MJCF body, with what is in its frames.
@@ -40,7 +51,10 @@ pub(super) struct BodyNode {
     /// Index of the parent; the world is its own.
     pub(super) parent: usize,
     pub(super) pose: Pose,
-    pub(super) joints: Vec<Element>,
+    /// Share of its weight that is held up.
+    pub(super) gravity_compensation: f64,
+    /// Joints and the poses of the frames around them.
+    pub(super) joints: Vec<(Element, Pose)>,
     /// Geoms and their poses.
     pub(super) geoms: Vec<(Element, Pose)>,
     pub(super) inertial: Option<(Element, Pose)>,
@@ -103,6 +117,8 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
         pairs: Vec::new(),
         tendons: Vec::new(),
         actuators: Vec::new(),
+        equalities: Vec::new(),
+        sites: Vec::new(),
         keys: Vec::new(),
         assets: Assets::default(),
         card: card_text::in_document(document)?,
@@ -132,34 +148,10 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
     for node in sections(root, "actuator").flat_map(elements) {
         tree.actuators.push(builder.section_element("actuator", node, &ACTUATORS)?);
     }
-    Ok(tree)
-}
-
-/// Returns the kinds of elements that the simulation ignores, with their counts: of those within each other only the
-/// outermost.
-pub(super) fn ignored(root: Node<'_, '_>) -> BTreeMap<String, usize> {
-    fn count(node: Node<'_, '_>, found: &mut BTreeMap<String, usize>) {
-        for child in elements(node) {
-            let tag = child.tag_name().name();
-            match is_inert(tag) {
-                true if matches!(tag, "sensor" | "custom") => {
-                    let within = elements(child).filter(|part| {
-                        !card_text::is_card(part) && !urdf::is_notice(part) && !assets::is_moments(part)
-                    });
-                    let count = within.count();
-                    if count > 0 {
-                        *found.entry(tag.to_owned()).or_default() += count;
-                    }
-                }
-                true => *found.entry(tag.to_owned()).or_default() += 1,
-                false if tag == "default" => {}
-                false => count(child, found),
-            }
-        }
+    for node in sections(root, "equality").flat_map(elements) {
+        tree.equalities.push(builder.read_equality(node)?);
     }
-    let mut found = BTreeMap::new();
-    count(root, &mut found);
-    found
+    Ok(tree)
 }
 
 /// Refuses unknown sections and settings that are not simulated.
@@ -173,15 +165,6 @@ fn check_sections(root: Node<'_, '_>) -> Result<(), ModelError> {
     for node in elements(root) {
         let tag = node.tag_name().name();
         match tag {
-            "equality" => {
-                if let Some(constraint) = elements(node).next() {
-                    let kind = constraint.tag_name().name();
-                    let coupled = ["name", "body1", "joint1", "tendon1"];
-                    let name = coupled.iter().find_map(|name| constraint.attribute(*name)).unwrap_or(kind);
-                    let problem = format!("<equality><{kind}> makes a kinematic loop or couples joints; remove it");
-                    return Err(ModelError::unsupported(name, problem));
-                }
-            }
             _ if is_inert(tag) => {}
             _ if vocabulary::is_section(tag) => vocabulary::check(tag, &Element::of(node, tag))?,
             _ => return Err(ModelError::unsupported("mujoco", format!("<{tag}> is not supported"))),
@@ -224,7 +207,7 @@ impl Surroundings<'_> {
 
 impl BodyNode {
     fn new(name: String, parent: usize, pose: Pose) -> Self {
-        Self { name, parent, pose, joints: Vec::new(), geoms: Vec::new(), inertial: None }
+        Self { name, parent, pose, gravity_compensation: 0.0, joints: Vec::new(), geoms: Vec::new(), inertial: None }
     }
 }
 
@@ -246,6 +229,7 @@ impl Builder {
         let (body, class, is_frame) = (around.body, around.class, node.has_tag_name("frame"));
         let owner = tree.bodies[body].name.clone();
         let refuse = |problem: String| Err(ModelError::unsupported(&owner, problem));
+        let within = |pose: Pose| if is_frame { around.frame.times(&pose) } else { pose };
         if let Some(class) = class {
             self.classes.class(class, &owner)?;
         }
@@ -258,7 +242,8 @@ impl Builder {
                     let label = own_name(child).map_or_else(|| format!("body {number}"), str::to_owned);
                     let element = self.named("body", Element::of(child, label))?;
                     let pose = around.frame.times(&tree.compiler.angles.pose(&element));
-                    tree.bodies.push(BodyNode::new(element.label, body, pose));
+                    let gravity_compensation = element.number("gravcomp").unwrap_or(0.0);
+                    tree.bodies.push(BodyNode { gravity_compensation, ..BodyNode::new(element.label, body, pose) });
                     let within = Surroundings { body: number, frame: Pose::IDENTITY, class: class_within };
                     self.read_body(tree, child, &within, &mut Counts::default())?;
                 }
@@ -268,25 +253,28 @@ impl Builder {
                     let frame = around.frame.times(&tree.compiler.angles.pose(&element));
                     self.read_body(tree, child, &Surroundings { body, frame, class: class_within }, counts)?;
                 }
-                "inertial" | "joint" | "freejoint" if is_frame => {
-                    return refuse(format!("<{tag}> within <frame> is not supported; move it into the body"));
-                }
                 "inertial" => {
                     let element = inertial(child, &owner)?;
-                    let pose = tree.compiler.angles.pose(&element);
+                    let pose = within(tree.compiler.angles.pose(&element));
                     tree.bodies[body].inertial = Some((element, pose));
                 }
                 "joint" | "freejoint" => {
                     let label = label_of(child, "joint", &owner, counts);
                     let element = self.named("joint", self.classes.with_defaults(child, class, label)?)?;
-                    tree.bodies[body].joints.push(element);
+                    tree.bodies[body].joints.push((element, around.frame));
+                }
+                "site" => {
+                    let element = Element::of(child, child.attribute("name").unwrap_or_default());
+                    let pose = within(tree.compiler.angles.pose(&element));
+                    let place = Point3::from(pose.isometry().translation.vector);
+                    let point_m = element.get("pos").and_then(numbers).filter(|all| all.len() == 3).map(|_| place);
+                    tree.sites.push(Site { name: element.label, body, point_m });
                 }
                 "geom" => {
                     let label = label_of(child, "geom", &owner, counts);
                     refuse_content(child, &label)?;
                     let element = self.named("geom", self.classes.with_defaults(child, class, label)?)?;
-                    let pose = tree.compiler.angles.pose(&element);
-                    let pose = if is_frame { around.frame.times(&pose) } else { pose };
+                    let pose = within(tree.compiler.angles.pose(&element));
                     tree.bodies[body].geoms.push((element, pose));
                 }
                 _ if is_inert(tag) => {}
@@ -321,6 +309,24 @@ impl Builder {
             refuse_content(node, &element.label)?;
         }
         Ok(element)
+    }
+
+    /// Reads an equality; those that are not active have no effect.
+    fn read_equality(&mut self, node: Node<'_, '_>) -> Result<Element, ModelError> {
+        let kind = node.tag_name().name();
+        let coupled = ["name", "joint1", "body1", "site1", "tendon1"];
+        let label = coupled.iter().find_map(|name| node.attribute(*name)).unwrap_or(kind);
+        let tag = format!("equality/{kind}");
+        if vocabulary::rules(&tag).is_none() {
+            let problem = format!("<equality><{kind}> is not supported; accepted: connect, joint");
+            return Err(ModelError::unsupported(label, problem));
+        }
+        let element = self.classes.completed(Element { tag, ..Element::of(node, label) }, None)?;
+        refuse_content(node, label)?;
+        match own_name(node) {
+            Some(_) => self.named("equality", element),
+            None => vocabulary::check(&element.tag, &element).map(|()| element),
+        }
     }
 
     fn read_tendon(&mut self, node: Node<'_, '_>) -> Result<(Element, Vec<Element>), ModelError> {

@@ -5,6 +5,7 @@ use std::path::Path;
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
+use super::compose;
 use super::files::{self, AssetFiles};
 use super::urdf::{self, ModelFiles};
 use super::xml::{self, elements, sections};
@@ -36,7 +37,7 @@ pub struct VisualMesh {
 /// [`ModelError`] names the file that is missing or unreadable.
 pub fn visual_meshes(path: &Path, files: &ModelFiles) -> Result<Vec<VisualMesh>, ModelError> {
     let path = files::model_of(path)?;
-    let mut text = files::text_with_includes(&path)?;
+    let mut text = compose::whole_text(&path)?;
     let document = xml::parse(&text)?;
     if urdf::is_urdf(&document) {
         text = urdf::to_mjcf(&document, &path, files, true)?;

@@ -77,7 +77,7 @@ const FLAG: &Rules = &[
 ];
 
 const BODY: &Rules =
-    &[("name childclass", Word), ("mocap", Only("false")), ("gravcomp", Only("0")), ("user sleep", Inert)];
+    &[("name childclass", Word), ("mocap", Only("false")), ("gravcomp", Numbers(1, 1)), ("user sleep", Inert)];
 
 const INERTIAL: &Rules = &[("mass", Numbers(1, 1)), ("diaginertia", Numbers(3, 3)), ("fullinertia", Numbers(6, 6))];
 
@@ -85,12 +85,12 @@ const JOINT: &Rules = &[
     ("type", Choice("hinge|free|slide|ball")),
     ("limited actuatorfrclimited", LIMITED),
     ("pos axis", Numbers(3, 3)),
-    ("springdamper", Only("0 0")),
-    ("range actuatorfrcrange", Numbers(2, 2)),
+    ("range actuatorfrcrange springdamper", Numbers(2, 2)),
     ("actuatorgravcomp", Only("false")),
     ("solreflimit solreffriction", Numbers(1, 2)),
     ("solimplimit solimpfriction", Numbers(1, 5)),
-    ("ref springref stiffness damping armature frictionloss margin", Numbers(1, 1)),
+    ("ref springref armature frictionloss margin", Numbers(1, 1)),
+    ("stiffness damping", Numbers(1, 3)),
 ];
 
 const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
@@ -117,6 +117,9 @@ const ACTUATOR: &Rules = &[
     ("ctrllimited forcelimited", LIMITED),
     ("gear", Numbers(1, 6)),
     ("ctrlrange forcerange", Numbers(2, 2)),
+    ("armature", Numbers(1, 1)),
+    ("damping", Numbers(1, 3)),
+    ("delay nsample", Only("0")),
     ("actlimited", Only("false|auto")),
     ("actearly", Only("false")),
     // For muscles.
@@ -155,6 +158,11 @@ const PAIR: &Rules = &[
     ("solreffriction", Only("0 0")),
 ];
 
+const EQUALITY: &Rules =
+    &[("name class", Word), ("active", BOOLEAN), ("solref", Numbers(1, 2)), ("solimp", Numbers(1, 5))];
+const COUPLING: &Rules = &[("joint1 joint2", Word), ("polycoef", Numbers(1, 5))];
+const CONNECTION: &Rules = &[("body1 body2 site1 site2", Word), ("anchor", Numbers(3, 3))];
+
 /// Meshes with vertices in the text; others are ignored.
 const MESH: &Rules = &[
     ("name class", Word),
@@ -190,6 +198,8 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "worldbody" | "contact" | "tendon" | "actuator" | "asset" | "keyframe" => &[],
         "body" => &[BODY, PLACE],
         "frame" => &[&[("name childclass", Word)], PLACE],
+        "replicate" => &[&[("count", Whole(1, 1)), ("sep", Word), ("offset euler", Numbers(3, 3))]],
+        "attach" => &[&[("model body frame prefix", Word)]],
         "inertial" => &[INERTIAL, PLACE],
         "joint" => &[NAMED, JOINT],
         "freejoint" => &[FREEJOINT],
@@ -200,6 +210,9 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "general" => &[NAMED, ACTUATOR, GENERAL],
         "exclude" => &[&[("name body1 body2", Word)]],
         "pair" => &[PAIR],
+        "equality" => &[EQUALITY],
+        "equality/joint" => &[EQUALITY, COUPLING],
+        "equality/connect" => &[EQUALITY, CONNECTION],
         "mesh" => &[MESH],
         "hfield" => &[HFIELD],
         "key" => &[KEY],
@@ -211,7 +224,9 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
 
 /// Returns whether an outermost element is a section that the simulation reads.
 pub(super) fn is_section(tag: &str) -> bool {
-    "compiler option default asset worldbody contact tendon actuator keyframe".split(' ').any(|section| section == tag)
+    "compiler option default asset worldbody contact equality tendon actuator keyframe"
+        .split(' ')
+        .any(|section| section == tag)
 }
 
 /// Returns whether an element, with its content, never affects motion.

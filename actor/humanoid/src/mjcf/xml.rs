@@ -64,20 +64,26 @@ pub(super) fn open(text: &mut String, tag: &str, attributes: &[Attribute]) {
     let _ = write!(text, "<{tag}");
     for (name, value) in attributes {
         let _ = write!(text, " {name}=\"");
-        for letter in value.chars() {
-            match letter {
-                '&' => text.push_str("&amp;"),
-                '<' => text.push_str("&lt;"),
-                '"' => text.push_str("&quot;"),
-                // A reader would turn these into spaces.
-                '\n' => text.push_str("&#10;"),
-                '\t' => text.push_str("&#9;"),
-                _ => text.push(letter),
-            }
-        }
+        escape(text, value);
         text.push('"');
     }
     text.push('>');
+}
+
+/// Writes the value of an attribute.
+pub(super) fn escape(text: &mut String, value: &str) {
+    for letter in value.chars() {
+        match letter {
+            '&' => text.push_str("&amp;"),
+            '<' => text.push_str("&lt;"),
+            '"' => text.push_str("&quot;"),
+            '\'' => text.push_str("&apos;"),
+            // A reader would turn these into spaces.
+            '\n' => text.push_str("&#10;"),
+            '\t' => text.push_str("&#9;"),
+            _ => text.push(letter),
+        }
+    }
 }
 
 /// Returns the nesting depth of elements; meaningless for a text that is not well-formed.

@@ -3,6 +3,7 @@
 //! [`crate::mjcf`] reads a model from text, [`crate::card`] edits it, and [`crate::physics`] builds a world from it.
 //! Lengths are metres, angles radians, masses kilograms.
 
+mod equality;
 mod geometry;
 mod ground;
 pub(crate) mod hull;
@@ -19,6 +20,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
+pub use self::equality::{Connection, Coupling};
 pub use self::geometry::Geometry;
 pub use self::ground::{Ground, HEIGHT_FIELD_SIDE_MAX, HeightField};
 pub use self::pair::{Pair, ShapeIndex};
@@ -55,6 +57,10 @@ pub struct Model {
     pub links: Vec<Link>,
     /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
     pub tendons: Vec<Tendon>,
+    /// Hinges that follow others, in the order of the text.
+    pub couplings: Vec<Coupling>,
+    /// Points that stay together, in the order of the text.
+    pub connections: Vec<Connection>,
     /// Every two shapes that may touch: those with the ground first, each kind in the order of the bodies and shapes.
     pub pairs: Vec<Pair>,
     /// Ground.
@@ -92,6 +98,8 @@ pub struct Body {
     pub centre_of_mass_m: Point3<f64>,
     /// Inertia about the centre of mass, in this body's axes (kg·m²).
     pub inertia_kgm2: Matrix3<f64>,
+    /// Share of its weight that a force at the centre of mass holds up: MJCF's `gravcomp`.
+    pub gravity_compensation: f64,
 }
 
 /// An MJCF body, or a link in terms of URDF: a rigid body of its own, or a welded part of one.
@@ -181,10 +189,14 @@ pub struct Hinge {
     pub nominal_rad: f64,
     /// Stiffness of the spring towards `rest_rad` (N·m/rad).
     pub stiffness_nmprad: f64,
+    /// Further coefficients of the spring: of the square (N·m/rad²) and the cube (N·m/rad³) of the deflection.
+    pub stiffness_powers: [f64; 2],
     /// Rest angle of the spring (rad).
     pub rest_rad: f64,
     /// Viscous friction (N·m·s/rad).
     pub damping_nmsprad: f64,
+    /// Further coefficients of the viscous friction: of rate × |rate| (N·m·s²/rad²) and rate³ (N·m·s³/rad³).
+    pub damping_powers: [f64; 2],
     /// Rotor inertia, as seen at the hinge (kg·m²).
     pub armature_kgm2: f64,
     /// Greatest torque of dry friction (N·m).

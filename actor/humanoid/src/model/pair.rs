@@ -18,8 +18,8 @@ pub struct Pair {
     pub first: ShapeIndex,
     /// Other shape; `None` is the ground.
     pub second: Option<ShapeIndex>,
-    /// Friction coefficient; 0 without friction.
-    pub friction: f64,
+    /// Friction coefficients along the two directions of the friction pyramid; 0 without friction.
+    pub friction: [f64; 2],
     /// Distance (m) below which the contact pushes.
     pub margin_m: f64,
     /// Softness of the contact.

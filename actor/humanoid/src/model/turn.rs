@@ -69,6 +69,13 @@ impl Model {
         for body in self.bodies.iter_mut().filter(|body| body.parent == Some(0)) {
             body.pose = back * body.pose;
         }
+        for connection in &mut self.connections {
+            for (link, point_m) in connection.links.into_iter().zip(&mut connection.points_m) {
+                if self.links[link].body == 0 {
+                    *point_m = back * *point_m;
+                }
+            }
+        }
         for key in &mut self.keyframes {
             if let [w, x, y, z] = key.position[3..7] {
                 let moved = Quaternion::new(w, x, y, z) * turn.into_inner();

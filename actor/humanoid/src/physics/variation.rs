@@ -66,6 +66,7 @@ impl Variation {
         model.bodies[0].centre_of_mass_m = nominal.bodies[0].centre_of_mass_m + self.root_centre_offset_m;
         for (index, (hinge, nominal)) in model.hinges.iter_mut().zip(&nominal.hinges).enumerate() {
             hinge.damping_nmsprad = nominal.damping_nmsprad * self.damping_scale[index];
+            hinge.damping_powers = nominal.damping_powers.map(|power| power * self.damping_scale[index]);
             hinge.armature_kgm2 = nominal.armature_kgm2 * self.armature_scale[index];
         }
         for (index, (motor, nominal)) in model.motors.iter_mut().zip(&nominal.motors).enumerate() {

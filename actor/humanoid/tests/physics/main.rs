@@ -5,6 +5,7 @@ mod body;
 mod boxes;
 mod coordinates;
 mod dynamics;
+mod equalities;
 mod ground;
 mod hinge;
 mod invariance;

@@ -70,7 +70,8 @@ pub(super) struct Servo {
     pub armature_kgm2: Reasoned,
     /// `None` for the default.
     pub action_scale_rad: Option<Reasoned>,
-    pub is_held: bool,
+    /// Why no policy moves it.
+    pub held: Option<String>,
 }
 
 /// Stiffness and damping of the file's own servo; `None` without one.
@@ -108,6 +109,17 @@ pub(super) fn of_walker(physics: &Physics, legs: &Legs, hinge: usize) -> Servo {
             format!("the file has none: {ARMATURE_PER_EFFORT:?} of effort_nm"),
         ),
     };
+    if let Some(why) = model.moved_by(hinge) {
+        let none = || Reasoned::new(0.0, Confidence::Sure, "no servo");
+        return Servo {
+            kp: none(),
+            kd: none(),
+            effort_nm: Some(effort_nm),
+            armature_kgm2: Reasoned::new(model.hinges[hinge].armature_kgm2, Confidence::Sure, "of the file"),
+            action_scale_rad: None,
+            held: Some(why),
+        };
+    }
     let damping_s = DAMPING_S * (legs.hip_height_m / DAMPING_LEG_M).sqrt();
     // What the joint itself has acts too.
     let rest = |kd: f64| (kd - model.hinges[hinge].damping_nmsprad).max(0.0);
@@ -125,7 +137,7 @@ pub(super) fn of_walker(physics: &Physics, legs: &Legs, hinge: usize) -> Servo {
             effort_nm: Some(effort_nm),
             armature_kgm2,
             action_scale_rad: None,
-            is_held: true,
+            held: Some("no hinge of a leg".to_owned()),
         };
     };
     // A heavy rotor needs more to move in time.
@@ -151,7 +163,7 @@ pub(super) fn of_walker(physics: &Physics, legs: &Legs, hinge: usize) -> Servo {
         }
     };
     let scale = Reasoned::new(ACTION_SCALE_RAD, Confidence::Guess, "for all hinges of legs");
-    Servo { kp, kd, effort_nm: Some(effort_nm), armature_kgm2, action_scale_rad: Some(scale), is_held: false }
+    Servo { kp, kd, effort_nm: Some(effort_nm), armature_kgm2, action_scale_rad: Some(scale), held: None }
 }
 
 /// Proposes the servo of a hinge of a robot whose legs are not known.
@@ -173,7 +185,7 @@ pub(super) fn of_any(model: &Model, hinge: usize) -> Servo {
         effort_nm: of_file,
         armature_kgm2: sure(own_kgm2),
         action_scale_rad: None,
-        is_held: false,
+        held: None,
     };
     if let Some([kp, kd]) = own(model, hinge) {
         return Servo { kp: sure(kp), kd: sure(kd), ..common };

@@ -210,8 +210,8 @@ fn write_rules(card: &mut String, model: &Model, rules: &[Rule]) {
             // Smaller digits are errors of the solver.
             let _ = writeln!(card, "default_rad = {}", short((default_rad * 1e6).round() / 1e6 + 0.0));
         }
-        if servo.is_held {
-            let _ = writeln!(card, "held = true  # no hinge of a leg");
+        if let Some(why) = &servo.held {
+            let _ = writeln!(card, "held = true  # {why}");
         }
     }
 }
@@ -261,7 +261,7 @@ fn are_alike((one, one_rad): &Rule, (other, other_rad): &Rule) -> bool {
         && near(number(&one.effort_nm), number(&other.effort_nm))
         && near(one.armature_kgm2.number, other.armature_kgm2.number)
         && (near(angles.0, angles.1) || (angles.0 - angles.1).abs() < 1e-4)
-        && one.is_held == other.is_held
+        && one.held.is_some() == other.held.is_some()
         && one.kp.confidence == other.kp.confidence
 }
 

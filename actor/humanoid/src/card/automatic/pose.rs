@@ -49,6 +49,7 @@ pub(super) fn home(physics: &mut Physics, legs: &Legs, keyframe: Option<&str>) -
             None => (start, format!("the legs cannot bend with flat feet, so they stay straight; {from}")),
         }
     };
+    physics.model().apply_couplings(&mut position);
     stand(physics, &mut position);
     Home { position, reason }
 }

@@ -30,7 +30,8 @@ pub(super) struct ContactConstraint<S: Simd> {
     pub(super) frame: [Vec3<S>; 3],
     pub(super) point_m: Vec3<S>,
     pub(super) edges: usize,
-    pub(super) friction: Lanes<S>,
+    /// Friction along the two tangents.
+    pub(super) friction: [Lanes<S>; 2],
     /// Worlds in which it touches.
     pub(super) is_active: Mask<S>,
     pub(super) targets: [Lanes<S>; EDGES],
@@ -51,28 +52,29 @@ impl<S: Simd> ContactRows<S> {
         Self { numbers: Vec::with_capacity(16 * structure.dofs()), scratch: vec![[zero; 3]; structure.dofs()] }
     }
 
-    /// Adds the rows of a contact: rates of separation and sliding per rate of each degree of freedom, whitened by
-    /// `whitening`.
+    /// Adds the rows of two points of bodies, of which `None` is still: rates of the first against the second along the
+    /// directions of `frame`, per rate of each degree of freedom, whitened by `whitening`. The first `skipped` degrees of
+    /// freedom move both alike.
     #[inline(always)]
-    fn push(
+    #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
+    pub(super) fn push(
         &mut self,
         structure: &Structure,
         posture: &Posture<S>,
         whitening: Option<&MassMatrix<S>>,
-        pair: &PairNode,
-        point_m: &Vec3<S>,
+        dofs: &[u32],
+        points: [Option<(usize, Vec3<S>)>; 2],
+        skipped: usize,
         frame: &[Vec3<S>; 3],
     ) {
-        let zero = point_m.x.constant(0.0);
-        for dof in &pair.dofs {
+        let zero = frame[0].x.constant(0.0);
+        for dof in dofs {
             self.scratch[*dof as usize] = [zero; 3];
         }
-        for (body, sign) in pair.bodies.into_iter().zip([1.0, -1.0]) {
-            let Some(body) = body else { continue };
-            // Contacts between two bodies do not move the robot as a whole.
-            let skipped = if pair.bodies[1].is_some() { ROOT_DOFS } else { 0 };
+        for (point, sign) in points.into_iter().zip([1.0, -1.0]) {
+            let Some((body, point_m)) = point else { continue };
             for dof in structure.path_of_body(body).iter().skip(skipped) {
-                let moved = posture.axes[*dof as usize].at(point_m);
+                let moved = posture.axes[*dof as usize].at(&point_m);
                 let row = &mut self.scratch[*dof as usize];
                 for (number, direction) in row.iter_mut().zip(frame) {
                     *number += moved.dot(direction) * sign;
@@ -80,9 +82,9 @@ impl<S: Simd> ContactRows<S> {
             }
         }
         if let Some(matrix) = whitening {
-            matrix.whiten_rows(structure, pair.dofs.iter().map(|dof| *dof as usize), &mut self.scratch);
+            matrix.whiten_rows(structure, dofs.iter().map(|dof| *dof as usize), &mut self.scratch);
         }
-        for dof in &pair.dofs {
+        for dof in dofs {
             self.numbers.push(self.scratch[*dof as usize]);
         }
     }
@@ -131,15 +133,21 @@ impl<S: Simd> ContactConstraint<S> {
     ) -> Self {
         let frame = frame(&contact.normal, contact.along.as_ref());
         let start = rows.numbers.len();
-        rows.push(structure, posture, whitening, pair, &contact.point_m, &frame);
+        // Contacts between two bodies do not move the robot as a whole.
+        let skipped = if pair.bodies[1].is_some() { ROOT_DOFS } else { 0 };
+        let points = pair.bodies.map(|body| body.map(|body| (body, contact.point_m)));
+        rows.push(structure, posture, whitening, &pair.dofs, points, skipped, &frame);
         let zero = contact.gap_m.constant(0.0);
-        let edges = if pair.friction > 0.0 { EDGES } else { 1 };
+        let edges = if pair.friction != [0.0; 2] { EDGES } else { 1 };
         let least = if edges == 1 { 0.0 } else { FRICTION_MIN };
-        let friction = (friction_scale * pair.friction).max(zero.constant(least));
+        let [first, second] = pair.friction;
+        let friction = [friction_scale * first, friction_scale * second];
+        let friction = [friction[0].max(zero.constant(least)), friction[1].max(zero.constant(least))];
         let violation = contact.gap_m - pair.margin_m;
         let active = violation.less_than(zero);
-        // MuJoCo's approximate response of an edge, and its softness for pyramids ("diagApprox", "makeImpedance").
-        let stiff = friction.max(zero.constant(STIFF_FRICTION_MIN));
+        // MuJoCo's approximate response of an edge, and its softness for pyramids ("diagApprox", "makeImpedance"): that of
+        // the first tangent's edges holds for all.
+        let stiff = friction[0].max(zero.constant(STIFF_FRICTION_MIN));
         let square = stiff * stiff;
         let response =
             if edges == 1 { zero.constant(pair.response) } else { (square + 1.0) * square * (2.0 * pair.response) };
@@ -172,7 +180,8 @@ impl<S: Simd> ContactConstraint<S> {
     /// Returns the tangent of an edge and its slope.
     #[inline(always)]
     pub(super) fn slope(&self, edge: usize) -> (usize, Lanes<S>) {
-        let friction = if self.edges == 1 { self.friction.constant(0.0) } else { self.friction };
+        let friction = self.friction[edge / 2];
+        let friction = if self.edges == 1 { friction.constant(0.0) } else { friction };
         (1 + edge / 2, if edge.is_multiple_of(2) { friction } else { -friction })
     }
 
@@ -180,7 +189,7 @@ impl<S: Simd> ContactConstraint<S> {
     #[inline(always)]
     pub(super) fn force(&self) -> [Lanes<S>; 3] {
         let [a, b, c, d] = self.forces_n;
-        [(a + b) + (c + d), (a - b) * self.friction, (c - d) * self.friction]
+        [(a + b) + (c + d), (a - b) * self.friction[0], (c - d) * self.friction[1]]
     }
 
     /// Returns the force of an edge at accelerations along the three directions, of an edge with this stiffness, and
@@ -196,6 +205,35 @@ impl<S: Simd> ContactConstraint<S> {
         let missing = self.targets[edge] - slope.mul_add(accelerations[tangent], accelerations[0]);
         let pushes = self.is_active.and(missing.constant(0.0).less_than(missing));
         (pushes.keep(missing * stiffness), pushes.keep(stiffness))
+    }
+}
+
+/// Second derivatives of a contact along its normal and tangents; the two tangents are independent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights<S: Simd> {
+    pub(super) normal: Lanes<S>,
+    mixed: [Lanes<S>; 2],
+    tangents: [Lanes<S>; 2],
+}
+
+impl<S: Simd> Weights<S> {
+    #[inline(always)]
+    pub(super) fn new([a, b, c, d]: [Lanes<S>; EDGES], [first, second]: [Lanes<S>; 2]) -> Self {
+        Self {
+            normal: (a + b) + (c + d),
+            mixed: [(a - b) * first, (c - d) * second],
+            tangents: [(a + b) * (first * first), (c + d) * (second * second)],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn times(&self, [normal, first, second]: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
+        let [to_first, to_second] = self.mixed;
+        [
+            self.normal.mul_add(*normal, to_first.mul_add(*first, to_second * *second)),
+            to_first.mul_add(*normal, self.tangents[0] * *first),
+            to_second.mul_add(*normal, self.tangents[1] * *second),
+        ]
     }
 }
 

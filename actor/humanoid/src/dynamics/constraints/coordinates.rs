@@ -1,7 +1,7 @@
 //! Constraints of hinges, tendons and the root: limits, dry friction, and the limits of servos' torques.
 
 use super::softness::{SoftRow, soft_row};
-use crate::articulation::Structure;
+use crate::articulation::{Coordinate, Structure};
 use crate::dynamics::forces::HingeForces;
 use crate::lanes::{Lanes, Mask, Simd};
 
@@ -15,6 +15,8 @@ pub(super) struct CoordinateConstraint<S: Simd> {
     pub(super) coordinate: usize,
     /// Worlds in which any of them may act.
     pub(super) is_active: Mask<S>,
+    /// Whether it pushes both ways: an equality.
+    pub(super) is_fixed: bool,
     /// Limit that acts: 1 pushes to greater angles, −1 to smaller ones.
     pub(super) limit_sign: Lanes<S>,
     /// Where the limit is reached.
@@ -64,9 +66,12 @@ pub(super) fn prepare<S: Simd>(
         }
         // The nearer limit.
         let (to_min, to_max) = (place - coordinate.min, -(place - coordinate.max));
-        let sign = to_min.less_than(to_max).select(one, -one);
-        let violation = to_min.min(to_max) - coordinate.limit_margin;
-        let beyond = violation.less_than(zero);
+        let (sign, violation, beyond) = if coordinate.is_fixed {
+            (one, to_min, zero.less_than(one))
+        } else {
+            let violation = to_min.min(to_max) - coordinate.limit_margin;
+            (to_min.less_than(to_max).select(one, -one), violation, violation.less_than(zero))
+        };
         let servo = coordinate.hinge.map(|hinge| &hinges[hinge]);
         let saturates = servo.map_or(never, |servo| {
             let nearest_nm = servo.min_nm.abs().min(servo.max_nm.abs());
@@ -92,6 +97,7 @@ pub(super) fn prepare<S: Simd>(
         constraints.push(CoordinateConstraint {
             coordinate: index,
             is_active: active,
+            is_fixed: coordinate.is_fixed,
             limit_sign: sign,
             is_beyond: beyond,
             limit,
@@ -142,8 +148,18 @@ impl<S: Simd> CoordinateConstraint<S> {
             decrease += loss_nm.equals(free_nm).keep(loss_stiffness);
         }
         let missing = self.limit.target - acceleration * self.limit_sign;
-        let pushes = self.is_beyond.and(zero.less_than(missing));
+        let pushes = if self.is_fixed { self.is_beyond } else { self.is_beyond.and(zero.less_than(missing)) };
         decrease += pushes.keep(limit_stiffness);
         ([pushes.keep(missing * limit_stiffness), loss_nm, servo_nm], decrease)
     }
+}
+
+/// Returns the acceleration of a coordinate.
+#[inline(always)]
+pub(super) fn of_terms<S: Simd>(coordinate: &Coordinate, accelerations: &[Lanes<S>]) -> Lanes<S> {
+    let mut sum = accelerations[0].constant(0.0);
+    for (dof, weight) in &coordinate.terms {
+        sum += accelerations[*dof] * *weight;
+    }
+    sum
 }

@@ -4,6 +4,7 @@
 //! by one row.
 
 use super::Problem;
+use super::connections::ConnectionConstraint;
 use super::contacts::{ContactConstraint, ContactRows, EDGES};
 use super::coordinates::CoordinateConstraint;
 use super::rows::Rows;
@@ -18,7 +19,7 @@ const SWEEPS_MAX: usize = 100;
 const SETTLED: f64 = 1e-4;
 /// Change of an acceleration (m/s² or rad/s²) that is always small enough.
 const SETTLED_MIN: f64 = 1e-3;
-/// Passes over the edges of one contact for each sweep over all constraints.
+/// Passes over the edges of one contact, or the axes of one connection, for each sweep over all constraints.
 const EDGE_PASSES: usize = 3;
 
 /// Workspace of the solver.
@@ -26,6 +27,7 @@ const EDGE_PASSES: usize = 3;
 pub(super) struct GaussSeidel<S: Simd> {
     rows: Rows<S>,
     coordinates: Vec<CoordinateResponse<S>>,
+    connections: Vec<ConnectionResponse<S>>,
     contacts: Vec<ContactResponse<S>>,
 }
 
@@ -39,6 +41,14 @@ struct CoordinateResponse<S: Simd> {
     limit_divisor: Lanes<S>,
     loss_divisor: Lanes<S>,
     servo_divisor: Lanes<S>,
+}
+
+/// Response of a connection to its forces.
+#[derive(Clone, Copy, Debug)]
+struct ConnectionResponse<S: Simd> {
+    /// Accelerations along the three axes per force along each.
+    columns: [[Lanes<S>; 3]; 3],
+    divisors: [Lanes<S>; 3],
 }
 
 /// Response of a contact to its forces.
@@ -80,6 +90,7 @@ impl<S: Simd> GaussSeidel<S> {
         Self {
             rows: Rows::new(simd, structure),
             coordinates: Vec::with_capacity(structure.coordinates.len()),
+            connections: Vec::with_capacity(structure.connections.len()),
             contacts: Vec::with_capacity(16),
         }
     }
@@ -88,11 +99,14 @@ impl<S: Simd> GaussSeidel<S> {
     #[inline(always)]
     pub(super) fn solve(&mut self, problem: Problem<'_, S>, whitened: &mut [Lanes<S>]) {
         self.prepare(&problem);
-        let Problem { structure, pairs, coordinates, contacts, rows: contact_rows, .. } = problem;
+        let Problem { structure, pairs, coordinates, connections, contacts, rows: contact_rows, .. } = problem;
         let rows = &self.rows;
         for (constraint, response) in coordinates.iter().zip(&self.coordinates) {
             let path = &structure.coordinates[constraint.coordinate].dofs;
             rows.add(response.start, path, constraint.torque(), whitened);
+        }
+        for (connection, node) in connections.iter().zip(&structure.connections) {
+            contact_rows.add(connection.start, &node.dofs, &connection.forces_n, whitened);
         }
         for contact in &*contacts {
             contact_rows.add(contact.start, &pairs[contact.key.0 as usize].dofs, &contact.force(), whitened);
@@ -104,6 +118,11 @@ impl<S: Simd> GaussSeidel<S> {
             sweep.largest = zero;
             for (constraint, response) in coordinates.iter_mut().zip(&self.coordinates) {
                 response.update(constraint, rows, structure, whitened, &mut sweep);
+            }
+            for ((connection, response), node) in
+                connections.iter_mut().zip(&self.connections).zip(&structure.connections)
+            {
+                response.update(connection, contact_rows, &node.dofs, whitened, &mut sweep);
             }
             for (contact, response) in contacts.iter_mut().zip(&self.contacts) {
                 response.update(contact, contact_rows, &pairs[contact.key.0 as usize], whitened, &mut sweep);
@@ -125,6 +144,11 @@ impl<S: Simd> GaussSeidel<S> {
             let start = self.rows.numbers.len();
             self.rows.push(problem.structure, problem.matrix, problem.coordinate(index));
             self.coordinates.push(CoordinateResponse::new(constraint, start, &self.rows));
+        }
+        self.connections.clear();
+        for (connection, node) in problem.connections.iter().zip(&problem.structure.connections) {
+            let rows = &problem.rows.numbers[connection.start..connection.start + node.dofs.len()];
+            self.connections.push(ConnectionResponse::new(connection, rows));
         }
         self.contacts.clear();
         for (index, contact) in problem.contacts.iter().enumerate() {
@@ -191,7 +215,8 @@ impl<S: Simd> CoordinateResponse<S> {
         let missing = constraint.limit.target
             - acceleration * constraint.limit_sign
             - constraint.limit.softness * constraint.limit_nm;
-        let wanted = missing.mul_add(self.limit_divisor, constraint.limit_nm).max(zero);
+        let wanted = missing.mul_add(self.limit_divisor, constraint.limit_nm);
+        let wanted = if constraint.is_fixed { wanted } else { wanted.max(zero) };
         constraint.limit_nm += sweep.running.and(constraint.is_beyond).keep(wanted - constraint.limit_nm);
         let change = constraint.torque() - before;
         sweep.note_change(change * self.response);
@@ -200,18 +225,73 @@ impl<S: Simd> CoordinateResponse<S> {
     }
 }
 
+/// Returns the products of three rows with each other.
+#[inline(always)]
+fn products<S: Simd>(rows: &[[Lanes<S>; 3]], zero: Lanes<S>) -> [[Lanes<S>; 3]; 3] {
+    let mut own = [[zero; 3]; 3];
+    for row in rows {
+        for (line, number) in own.iter_mut().zip(row) {
+            for (sum, other) in line.iter_mut().zip(row) {
+                *sum = number.mul_add(*other, *sum);
+            }
+        }
+    }
+    own
+}
+
+impl<S: Simd> ConnectionResponse<S> {
+    #[inline(always)]
+    fn new(connection: &ConnectionConstraint<S>, rows: &[[Lanes<S>; 3]]) -> Self {
+        let (zero, one) = (connection.softness.constant(0.0), connection.softness.constant(1.0));
+        let columns = products(rows, zero);
+        let mut divisors = [zero; 3];
+        for (axis, divisor) in divisors.iter_mut().enumerate() {
+            *divisor = one / (columns[axis][axis] + connection.softness);
+        }
+        Self { columns, divisors }
+    }
+
+    /// Solves for the forces of a connection, one axis after the other, while all other constraints stay as they are.
+    #[inline(always)]
+    fn update(
+        &self,
+        connection: &mut ConnectionConstraint<S>,
+        rows: &ContactRows<S>,
+        dofs: &[u32],
+        whitened: &mut [Lanes<S>],
+        sweep: &mut Sweep<S>,
+    ) {
+        let before = connection.forces_n;
+        let mut accelerations = rows.products(connection.start, dofs, whitened);
+        let first = accelerations;
+        for _ in 0..EDGE_PASSES {
+            for axis in 0..3 {
+                let force = connection.forces_n[axis];
+                let missing = connection.targets[axis] - accelerations[axis] - connection.softness * force;
+                let change = sweep.running.keep(missing * self.divisors[axis]);
+                connection.forces_n[axis] += change;
+                for (acceleration, response) in accelerations.iter_mut().zip(self.columns[axis]) {
+                    *acceleration = response.mul_add(change, *acceleration);
+                }
+            }
+        }
+        let mut change = connection.forces_n;
+        for (after, before) in change.iter_mut().zip(before) {
+            *after -= before;
+        }
+        for axis in 0..3 {
+            sweep.note_change(accelerations[axis] - first[axis]);
+            sweep.note_effect(self.columns[axis][axis] * connection.forces_n[axis]);
+        }
+        rows.add(connection.start, dofs, &change, whitened);
+    }
+}
+
 impl<S: Simd> ContactResponse<S> {
     #[inline(always)]
     fn new(contact: &ContactConstraint<S>, rows: &[[Lanes<S>; 3]]) -> Self {
         let (zero, one) = (contact.softness.constant(0.0), contact.softness.constant(1.0));
-        let mut own = [[zero; 3]; 3];
-        for row in rows {
-            for (line, number) in own.iter_mut().zip(row) {
-                for (sum, other) in line.iter_mut().zip(row) {
-                    *sum = number.mul_add(*other, *sum);
-                }
-            }
-        }
+        let own = products(rows, zero);
         let mut response = Self { columns: [[zero; 3]; EDGES], divisors: [zero; EDGES] };
         for edge in 0..contact.edges {
             let (tangent, slope) = contact.slope(edge);
@@ -238,7 +318,7 @@ impl<S: Simd> ContactResponse<S> {
         let before = contact.force();
         let mut accelerations = rows.products(contact.start, &pair.dofs, whitened);
         let first = accelerations;
-        let zero = contact.friction.constant(0.0);
+        let zero = contact.softness.constant(0.0);
         let changing = sweep.running.and(contact.is_active);
         for _ in 0..EDGE_PASSES {
             for edge in 0..contact.edges {

@@ -1,10 +1,11 @@
-//! Limits, friction losses, servos' torque limits and contacts, solved together.
+//! Limits, friction losses, servos' torque limits, equalities and contacts, solved together.
 //!
-//! The problem is MuJoCo's: soft one-sided constraints on accelerations, whose solution is unique.
+//! The problem is MuJoCo's: soft constraints on accelerations, most of them one-sided, whose solution is unique.
 //!
-//! - `coordinates`, `contacts`, `softness`: the problem.
+//! - `coordinates`, `connections`, `contacts`, `softness`: the problem.
 //! - `newton` with `hessian`, `gauss_seidel` with `rows`: its solution, by the model's choice.
 
+mod connections;
 mod contacts;
 mod coordinates;
 mod gauss_seidel;
@@ -13,6 +14,7 @@ mod newton;
 mod rows;
 mod softness;
 
+use self::connections::ConnectionConstraint;
 use self::contacts::{ContactConstraint, ContactRows, EDGES};
 use self::coordinates::{CoordinateConstraint, CoordinateForces};
 use self::gauss_seidel::GaussSeidel;
@@ -31,11 +33,15 @@ type WarmContact<S> = (ContactKey, [Lanes<S>; EDGES]);
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<S: Simd> {
     coordinates: Vec<CoordinateConstraint<S>>,
+    /// One per connection of the structure.
+    connections: Vec<ConnectionConstraint<S>>,
     contacts: Vec<ContactConstraint<S>>,
+    /// Rows of connections, then of contacts.
     contact_rows: ContactRows<S>,
     method: Method<S>,
     /// Forces of the step before: first guesses of sweeps.
     warm_coordinates: Vec<CoordinateForces<S>>,
+    warm_connections: Vec<[Lanes<S>; 3]>,
     warm_contacts: Vec<WarmContact<S>>,
     start_velocity: Vec<Lanes<S>>,
     /// Whitened accelerations: first without constraints, then with them.
@@ -58,8 +64,9 @@ struct Problem<'a, S: Simd> {
     /// Mass matrix, factored.
     matrix: &'a MassMatrix<S>,
     coordinates: &'a mut [CoordinateConstraint<S>],
+    connections: &'a mut [ConnectionConstraint<S>],
     contacts: &'a mut [ContactConstraint<S>],
-    /// Rows of the contacts, whitened for sweeps only.
+    /// Rows of connections and contacts, whitened for sweeps only.
     rows: &'a ContactRows<S>,
 }
 
@@ -78,6 +85,9 @@ impl<S: Simd> Problem<'_, S> {
     #[inline(always)]
     fn constrained(&self, number: Lanes<S>) -> Mask<S> {
         let mut worlds = number.less_than(number);
+        if !self.connections.is_empty() {
+            worlds = number.constant(0.0).less_than(number.constant(1.0));
+        }
         for constraint in &*self.coordinates {
             worlds = worlds.or(constraint.is_active);
         }
@@ -104,6 +114,7 @@ impl<S: Simd> Constraints<S> {
         let zero = Lanes::zero(simd);
         Self {
             coordinates: Vec::with_capacity(structure.coordinates.len()),
+            connections: Vec::with_capacity(structure.connections.len()),
             contacts: Vec::with_capacity(16),
             contact_rows: ContactRows::new(simd, structure),
             method: match structure.solver {
@@ -113,6 +124,7 @@ impl<S: Simd> Constraints<S> {
                 _ => Method::GaussSeidel(GaussSeidel::new(simd, structure)),
             },
             warm_coordinates: vec![[zero; 3]; structure.coordinates.len()],
+            warm_connections: vec![[zero; 3]; structure.connections.len()],
             warm_contacts: Vec::with_capacity(16),
             start_velocity: vec![zero; structure.dofs()],
             whitened: vec![zero; structure.dofs()],
@@ -124,6 +136,7 @@ impl<S: Simd> Constraints<S> {
     #[inline(always)]
     pub(crate) fn forget(&mut self) {
         self.warm_coordinates.fill([self.friction_scale.constant(0.0); 3]);
+        self.warm_connections.fill([self.friction_scale.constant(0.0); 3]);
         self.warm_contacts.clear();
     }
 
@@ -155,15 +168,28 @@ impl<S: Simd> Constraints<S> {
         let warm = &self.warm_coordinates;
         coordinates::prepare(&mut self.coordinates, structure, &forces.hinges, middle, velocity, warm, step_s);
         self.contact_rows.numbers.clear();
+        self.connections.clear();
         self.contacts.clear();
         let whitening = match self.method {
             Method::Newton(_) => None,
             Method::GaussSeidel(_) => Some(matrix),
         };
-        if !collisions.contacts.is_empty() {
+        if !(collisions.contacts.is_empty() && structure.connections.is_empty()) {
             self.start_velocity.copy_from_slice(velocity);
             if whitening.is_some() {
                 matrix.whiten(structure, &mut self.start_velocity);
+            }
+            for (node, warm) in structure.connections.iter().zip(&self.warm_connections) {
+                self.connections.push(ConnectionConstraint::new(
+                    &mut self.contact_rows,
+                    structure,
+                    posture,
+                    whitening,
+                    node,
+                    &self.start_velocity,
+                    warm,
+                    step_s,
+                ));
             }
             for contact in &collisions.contacts {
                 let warm = self.warm_of(contact.key);
@@ -182,9 +208,9 @@ impl<S: Simd> Constraints<S> {
                 self.contacts.push(constraint);
             }
         }
-        if !(self.coordinates.is_empty() && self.contacts.is_empty()) {
-            let Self { coordinates, contacts, contact_rows: rows, method, whitened, .. } = self;
-            let problem = Problem { structure, pairs, matrix, coordinates, contacts, rows };
+        if !(self.coordinates.is_empty() && self.connections.is_empty() && self.contacts.is_empty()) {
+            let Self { coordinates, connections, contacts, contact_rows: rows, method, whitened, .. } = self;
+            let problem = Problem { structure, pairs, matrix, coordinates, connections, contacts, rows };
             match method {
                 Method::Newton(newton) => newton.solve(problem, acceleration, whitened),
                 Method::GaussSeidel(sweeps) => sweeps.solve(problem, whitened),
@@ -193,6 +219,9 @@ impl<S: Simd> Constraints<S> {
         self.forget();
         for known in &self.coordinates {
             self.warm_coordinates[known.coordinate] = [known.limit_nm, known.loss_nm, known.servo_nm];
+        }
+        for (known, connection) in self.warm_connections.iter_mut().zip(&self.connections) {
+            *known = connection.forces_n;
         }
         for contact in &self.contacts {
             self.warm_contacts.push((contact.key, contact.forces_n));
@@ -219,6 +248,14 @@ impl<S: Simd> Constraints<S> {
             let [n, t, b] = &contact.frame;
             let force_n = *n * normal + *t * first + *b * second;
             loads.push(Load { pair: contact.key.0 as usize, point_m: contact.point_m, force_n });
+        }
+    }
+
+    /// Adds to a moment those of all connections in the last solve, times `duration`.
+    #[inline(always)]
+    pub(crate) fn add_moments(&self, moment: &mut Vec3<S>, duration: Lanes<S>) {
+        for connection in &self.connections {
+            *moment += connection.moment_nm() * duration;
         }
     }
 

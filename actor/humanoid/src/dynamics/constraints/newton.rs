@@ -5,9 +5,10 @@
 //! M + Σ s″ JᵀJ, then searches along the solution. Few iterations do, however stiff and redundant the contacts are.
 
 use super::Problem;
-use super::contacts::EDGES;
+use super::contacts::{EDGES, Weights};
+use super::coordinates::of_terms;
 use super::hessian::Hessian;
-use crate::articulation::{Coordinate, MassMatrix, Structure};
+use crate::articulation::{MassMatrix, Structure};
 use crate::collision::PairNode;
 use crate::lanes::{Lanes, Mask, Simd};
 
@@ -32,6 +33,7 @@ const SEARCH_SETTLED: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub(super) struct Newton<S: Simd> {
     coordinates: Vec<CoordinateState<S>>,
+    connections: Vec<ConnectionState<S>>,
     contacts: Vec<ContactState<S>>,
     /// Mass matrix, not factored.
     masses: MassMatrix<S>,
@@ -62,6 +64,13 @@ struct CoordinateState<S: Simd> {
 }
 
 #[derive(Clone, Copy, Debug)]
+struct ConnectionState<S: Simd> {
+    stiffness: Lanes<S>,
+    accelerations: [Lanes<S>; 3],
+    changes: [Lanes<S>; 3],
+}
+
+#[derive(Clone, Copy, Debug)]
 struct ContactState<S: Simd> {
     stiffness: Lanes<S>,
     accelerations: [Lanes<S>; 3],
@@ -76,6 +85,7 @@ impl<S: Simd> Newton<S> {
         let vector = vec![zero; structure.dofs()];
         Self {
             coordinates: Vec::with_capacity(structure.coordinates.len()),
+            connections: Vec::with_capacity(structure.connections.len()),
             contacts: Vec::with_capacity(16),
             masses: MassMatrix::new(simd, structure),
             hessian: Hessian::new(simd, structure),
@@ -107,7 +117,8 @@ impl<S: Simd> Newton<S> {
         let tendons = tendons.filter(|coordinate| coordinate.terms.len() > 1).map(|coordinate| &coordinate.dofs[..]);
         let contacts = problem.contacts.chunk_by(|one, other| one.key.0 == other.key.0);
         let contacts = contacts.map(|points| &problem.pairs[points[0].key.0 as usize].coupled_dofs[..]);
-        self.hessian.plan(structure, tendons.chain(contacts));
+        let connections = structure.connections.iter().map(|connection| &connection.dofs[..]);
+        self.hessian.plan(structure, tendons.chain(connections).chain(contacts));
         let constrained = problem.constrained(whitened[0]);
         let mut running = constrained;
         for iteration in 0..=ITERATIONS_MAX {
@@ -159,6 +170,14 @@ impl<S: Simd> Newton<S> {
                 decrease: zero,
             });
         }
+        self.connections.clear();
+        for (connection, node) in problem.connections.iter().zip(&problem.structure.connections) {
+            self.connections.push(ConnectionState {
+                stiffness: one / connection.softness,
+                accelerations: problem.rows.products(connection.start, &node.dofs, start),
+                changes: [zero; 3],
+            });
+        }
         self.contacts.clear();
         for (index, contact) in problem.contacts.iter().enumerate() {
             self.contacts.push(ContactState {
@@ -183,6 +202,17 @@ impl<S: Simd> Newton<S> {
             let torque = constraint.torque();
             for (dof, weight) in &problem.structure.coordinates[constraint.coordinate].terms {
                 self.gradient[*dof][0] -= torque * *weight;
+            }
+        }
+        for ((connection, state), node) in
+            problem.connections.iter_mut().zip(&self.connections).zip(&problem.structure.connections)
+        {
+            connection.forces_n = connection.respond(state.stiffness, &state.accelerations);
+            for (row, dof) in problem.rows.numbers[connection.start..].iter().zip(&node.dofs) {
+                let gradient = &mut self.gradient[*dof as usize][0];
+                for (number, force) in row.iter().zip(connection.forces_n) {
+                    *gradient = number.mul_sub_from(force, *gradient);
+                }
             }
         }
         for (contact, state) in problem.contacts.iter_mut().zip(&mut self.contacts) {
@@ -213,6 +243,15 @@ impl<S: Simd> Newton<S> {
                     self.hessian.add(*dof, *other, state.decrease * (*weight * *factor));
                 }
             }
+        }
+        for ((connection, state), node) in problem.connections.iter().zip(&self.connections).zip(&structure.connections)
+        {
+            let rows = &problem.rows.numbers[connection.start..connection.start + node.dofs.len()];
+            self.weighted.clear();
+            for row in rows {
+                self.weighted.push([row[0] * state.stiffness, row[1] * state.stiffness, row[2] * state.stiffness]);
+            }
+            self.hessian.add_product(&node.dofs, &self.weighted, rows);
         }
         for index in 0..self.contacts.len() {
             let contact = &problem.contacts[index];
@@ -265,6 +304,11 @@ impl<S: Simd> Newton<S> {
         for (index, state) in self.coordinates.iter_mut().enumerate() {
             state.change = of_terms(problem.coordinate(index), &self.step);
         }
+        for ((state, connection), node) in
+            self.connections.iter_mut().zip(&*problem.connections).zip(&problem.structure.connections)
+        {
+            state.changes = problem.rows.products(connection.start, &node.dofs, &self.step);
+        }
         for (index, state) in self.contacts.iter_mut().enumerate() {
             state.changes = problem.rows.products(problem.contacts[index].start, problem.dofs(index), &self.step);
         }
@@ -293,11 +337,16 @@ impl<S: Simd> Newton<S> {
                 slope = torque.mul_sub_from(state.change, slope);
                 curvature = (decrease * state.change).mul_add(state.change, curvature);
             }
-            for (contact, state) in problem.contacts.iter().zip(&self.contacts) {
-                let mut accelerations = state.accelerations;
-                for (acceleration, change) in accelerations.iter_mut().zip(state.changes) {
-                    *acceleration = change.mul_add(share, *acceleration);
+            for (connection, state) in problem.connections.iter().zip(&self.connections) {
+                let accelerations = moved(&state.accelerations, &state.changes, share);
+                let forces = connection.respond(state.stiffness, &accelerations);
+                for (force, change) in forces.into_iter().zip(state.changes) {
+                    slope = force.mul_sub_from(change, slope);
+                    curvature = (state.stiffness * change).mul_add(change, curvature);
                 }
+            }
+            for (contact, state) in problem.contacts.iter().zip(&self.contacts) {
+                let accelerations = moved(&state.accelerations, &state.changes, share);
                 for edge in 0..contact.edges {
                     let (force, decrease) = contact.respond(edge, state.stiffness, &accelerations);
                     let (tangent, along) = contact.slope(edge);
@@ -330,50 +379,21 @@ impl<S: Simd> Newton<S> {
         for state in &mut self.coordinates {
             state.acceleration = state.change.mul_add(share, state.acceleration);
         }
+        for state in &mut self.connections {
+            state.accelerations = moved(&state.accelerations, &state.changes, share);
+        }
         for state in &mut self.contacts {
-            for (acceleration, change) in state.accelerations.iter_mut().zip(state.changes) {
-                *acceleration = change.mul_add(share, *acceleration);
-            }
+            state.accelerations = moved(&state.accelerations, &state.changes, share);
         }
     }
 }
 
-/// Second derivatives of a contact along its normal and tangents; the two tangents are independent.
-#[derive(Clone, Copy, Debug)]
-struct Weights<S: Simd> {
-    normal: Lanes<S>,
-    mixed: [Lanes<S>; 2],
-    tangents: [Lanes<S>; 2],
-}
-
-impl<S: Simd> Weights<S> {
-    #[inline(always)]
-    fn new([a, b, c, d]: [Lanes<S>; EDGES], friction: Lanes<S>) -> Self {
-        let square = friction * friction;
-        Self {
-            normal: (a + b) + (c + d),
-            mixed: [(a - b) * friction, (c - d) * friction],
-            tangents: [(a + b) * square, (c + d) * square],
-        }
-    }
-
-    #[inline(always)]
-    fn times(&self, [normal, first, second]: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
-        let [to_first, to_second] = self.mixed;
-        [
-            self.normal.mul_add(*normal, to_first.mul_add(*first, to_second * *second)),
-            to_first.mul_add(*normal, self.tangents[0] * *first),
-            to_second.mul_add(*normal, self.tangents[1] * *second),
-        ]
-    }
-}
-
-/// Returns the acceleration of a coordinate.
+/// Returns accelerations after a share of their change.
 #[inline(always)]
-fn of_terms<S: Simd>(coordinate: &Coordinate, accelerations: &[Lanes<S>]) -> Lanes<S> {
-    let mut sum = accelerations[0].constant(0.0);
-    for (dof, weight) in &coordinate.terms {
-        sum += accelerations[*dof] * *weight;
+fn moved<S: Simd>(accelerations: &[Lanes<S>; 3], changes: &[Lanes<S>; 3], share: Lanes<S>) -> [Lanes<S>; 3] {
+    let mut moved = *accelerations;
+    for (acceleration, change) in moved.iter_mut().zip(changes) {
+        *acceleration = change.mul_add(share, *acceleration);
     }
-    sum
+    moved
 }

@@ -53,7 +53,19 @@ pub(super) fn soft_row<S: Simd>(
     response: Lanes<S>,
     step_s: f64,
 ) -> SoftRow<S> {
-    let impedance = impedance(softness, violation);
+    soft_row_of(softness, impedance(softness, violation), violation, rate, response, step_s)
+}
+
+/// Returns the same row for this impedance: where several rows belong to one violation, its length decides.
+#[inline(always)]
+pub(super) fn soft_row_of<S: Simd>(
+    softness: &Softness,
+    impedance: Lanes<S>,
+    violation: Lanes<S>,
+    rate: Lanes<S>,
+    response: Lanes<S>,
+    step_s: f64,
+) -> SoftRow<S> {
     let one = rate.constant(1.0);
     let spring = impedance * softness.stiffness;
     let implicit = one / (spring * (step_s * step_s / 4.0) + (1.0 + softness.damping * step_s / 2.0));

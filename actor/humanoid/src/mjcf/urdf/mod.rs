@@ -15,13 +15,10 @@ mod write;
 
 use std::path::{Path, PathBuf};
 
-use roxmltree::{Document, Node};
+use roxmltree::Document;
 
 use crate::error::ModelError;
-use crate::mjcf::xml::{elements, sections};
-
-/// Name of a `<text>` in `<custom>` that holds what was understood differently, or is not simulated.
-const NOTICE: &str = "treadmill_notice";
+use crate::mjcf::xml::sections;
 
 /// How the files of a model are read.
 #[derive(Clone, Debug, Default)]
@@ -66,15 +63,4 @@ pub(in crate::mjcf) fn to_mjcf(
 /// Returns a text of [`to_mjcf`] whose robot is higher by `height_m`.
 pub(in crate::mjcf) fn raised(text: &str, height_m: f64) -> String {
     text.replacen(&write::root_place(0.0), &write::root_place(height_m), 1)
-}
-
-/// Returns the notices in an MJCF text.
-pub(in crate::mjcf) fn notices(document: &Document<'_>) -> Vec<String> {
-    let texts = sections(document.root_element(), "custom").flat_map(elements).filter(is_notice);
-    texts.filter_map(|node| node.attribute("data").map(str::to_owned)).collect()
-}
-
-/// Returns whether a node is the `<text>` of a notice.
-pub(in crate::mjcf) fn is_notice(node: &Node<'_, '_>) -> bool {
-    node.attribute("name").is_some_and(|name| name.starts_with(NOTICE))
 }

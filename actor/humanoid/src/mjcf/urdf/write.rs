@@ -7,12 +7,11 @@ use nalgebra::{Isometry3, Matrix3, UnitQuaternion};
 use roxmltree::Node;
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 
-use super::NOTICE;
 use super::meshes::Search;
 use super::tree::{self, Branch, JointMotion, LinkTree};
 use crate::error::ModelError;
 use crate::mjcf::element::Attribute;
-use crate::mjcf::xml;
+use crate::mjcf::{notices, xml};
 
 /// Settings of MuJoCo's `<compiler>` that a URDF may have.
 const COMPILER: [&str; 5] = ["balanceinertia", "boundmass", "boundinertia", "settotalmass", "inertiafromgeom"];
@@ -72,10 +71,7 @@ impl Writer<'_> {
         }
         xml::write(&mut text, "compiler", &settings);
         text.push_str("<custom>");
-        for (number, notice) in self.notices.iter().enumerate() {
-            let name = format!("{NOTICE}_{number}");
-            xml::write(&mut text, "text", &[attribute("name", name), attribute("data", notice)]);
-        }
+        notices::write(&mut text, "urdf", &self.notices);
         text.push_str("</custom>\n<asset>\n");
         for ((path, scale), name) in &self.meshes {
             let file = path.to_string_lossy();
