@@ -148,7 +148,13 @@ def features() -> dict[str, str]:
             within='<body pos="0 0 -.3"><joint/><inertial pos="0 0 0" mass="1" diaginertia=".01 .01 .03"/></body>',
         ),
         "mass_impossible": model("refused", within='<body><joint/><inertial pos="0 0 0" mass="1" diaginertia=".01 .01 .03"/></body>'),
-        "mass_shell": model("either", arm='shellinertia="true"'),
+        "mass_shell": model(arm='shellinertia="true" density="5"', ball='shellinertia="true" mass="0.2"'),
+        "mass_shell_box": model(within='<geom type="box" size=".05 .04 .03" euler="20 30 40" shellinertia="true" density="8"/>'),
+        "mass_shell_cylinder": model(within='<geom type="cylinder" fromto="0 0 0 .1 .1 .1" size=".03" shellinertia="true" density="8"/>'),
+        "mass_shell_ellipsoid": model("either", within='<geom type="ellipsoid" size=".05 .04 .03" shellinertia="true"/>'),
+        "mass_shell_mesh": model(
+            head=f'<asset><mesh name="t" {tetrahedron} inertia="shell"/></asset>', within='<geom type="mesh" mesh="t" density="9"/>'
+        ),
         # Shapes.
         "shape_box": model(within='<geom type="box" size=".05 .04 .03" euler="20 30 40" pos="0 .1 0"/>'),
         "shape_cylinder": model(within='<geom type="cylinder" fromto="0 0 0 .1 .1 .1" size=".03"/>'),

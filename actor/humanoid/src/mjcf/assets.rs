@@ -90,9 +90,9 @@ impl Assets {
 
     /// Returns the moments of a mesh in the frame of its geom; `None` if they are those of its hull.
     pub(super) fn moments(&self, name: &str) -> Result<Option<Moments>, ModelError> {
-        let of_text = |mesh: &Mesh| match mesh.faces.is_empty() || mesh.element.get("inertia") == Some("convex") {
-            true => Ok(None),
-            false => moments(&mesh.element, &vertices(&mesh.element), &mesh.faces).map(Some),
+        let of_text = |mesh: &Mesh| match (mesh.element.get("inertia"), mesh.faces.is_empty()) {
+            (Some("convex"), _) | (Some("exact" | "legacy") | None, true) => Ok(None),
+            _ => moments(&mesh.element, &vertices(&mesh.element), &mesh.faces).map(Some),
         };
         match self.of_files.get(name) {
             Some(moments) => Ok(Some(*moments)),
@@ -194,10 +194,13 @@ pub(super) fn moments(mesh: &Element, points: &[Point3<f64>], faces: &[[usize; 3
     let faces: Vec<[usize; 3]> = faces.iter().map(turned).collect();
     let found = match mesh.get("inertia") {
         Some("convex") => Moments::of_hull(&placed),
+        Some("shell") if faces.is_empty() => hull::faces(&placed).map(|faces| Moments::of_shell(&placed, &faces)),
+        Some("shell") => Some(Moments::of_shell(&placed, &faces)),
         _ if placed.iter().flat_map(|point| point.iter()).any(|entry| !entry.is_finite()) => None,
         kind => {
+            // As in MuJoCo, absolute sums take faces as they are, also where they leave holes.
             let sum = if kind == Some("exact") { Sum::Signed } else { Sum::Absolute };
-            is_closed(points, &faces, sum).then(|| Moments::of_faces(&placed, &faces, sum))
+            (sum == Sum::Absolute || is_closed(points, &faces)).then(|| Moments::of_faces(&placed, &faces, sum))
         }
     };
     found.filter(|moments| moments.volume() > 0.0).ok_or_else(|| {
@@ -208,8 +211,8 @@ pub(super) fn moments(mesh: &Element, points: &[Point3<f64>], faces: &[[usize; 3
     })
 }
 
-/// Returns whether two faces share each edge; for signed sums, in opposite directions.
-fn is_closed(points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> bool {
+/// Returns whether two faces share each edge, in opposite directions.
+fn is_closed(points: &[Point3<f64>], faces: &[[usize; 3]]) -> bool {
     // Faces along each edge in its two directions.
     let mut edges: BTreeMap<[[u64; 3]; 2], [u32; 2]> = BTreeMap::new();
     // Files repeat a vertex for every triangle, and may write 0 as −0.
@@ -225,7 +228,7 @@ fn is_closed(points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> bool {
             edges.entry(edge).or_default()[usize::from(is_ascending)] += 1;
         }
     }
-    edges.values().all(|[back, forth]| if sum == Sum::Signed { [*back, *forth] == [1, 1] } else { back + forth == 2 })
+    edges.values().all(|directions| *directions == [1, 1])
 }
 
 /// Returns elevations as heights from 0 to `top_m`. The first row of the text is that of the greatest y.

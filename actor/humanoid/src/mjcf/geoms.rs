@@ -56,18 +56,28 @@ pub(super) fn read(
         Some(mesh) => assets.moments(mesh)?,
         None => None,
     };
-    let mass = (!weightless).then(|| {
-        // A density of 1 kg/m³ gives the volume.
-        let unit = of_mesh.map_or_else(
-            || inertia::of_geometry(&geometry, 1.0),
-            |moments| {
-                let pose = offset * pose;
-                let turn = pose.rotation.to_rotation_matrix();
-                moments.transformed(turn.matrix(), &pose.translation.vector).mass_properties(1.0)
-            },
-        );
-        let volume_m3 = unit.mass_kg;
-        unit.scaled(mass_kg.map_or(density_kgpm3, |mass_kg| mass_kg / volume_m3))
+    let is_shell = geom.is_true("shellinertia", false);
+    // A density of 1 kg/m³, or of 1 kg/m², gives the volume or the area.
+    let unit = match of_mesh {
+        _ if weightless => None,
+        Some(_) if is_shell => return Err(geom.refused("the shell of a mesh is `inertia=\"shell\"` of its <mesh>")),
+        Some(moments) => {
+            let pose = offset * pose;
+            let turn = pose.rotation.to_rotation_matrix();
+            Some(moments.transformed(turn.matrix(), &pose.translation.vector).mass_properties(1.0))
+        }
+        None if is_shell => {
+            let shell = inertia::of_shell(&geometry, 1.0);
+            let problem = || {
+                geom.refused(format!("the shell of {} is not computed; give its body an <inertial>", describe(geom)))
+            };
+            Some(shell.ok_or_else(problem)?)
+        }
+        None => Some(inertia::of_geometry(&geometry, 1.0)),
+    };
+    let mass = unit.map(|unit| {
+        let whole = unit.mass_kg;
+        unit.scaled(mass_kg.map_or(density_kgpm3, |mass_kg| mass_kg / whole))
     });
     Ok((mass, if collides { Some(collision_shape(geom, geometry)?) } else { None }))
 }

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
 use super::element::Element;
 use super::pose::Pose;
-use super::tree::Compiler;
+use super::tree::{BodyNode, Compiler};
 use crate::articulation::Structure;
 use crate::error::ModelError;
 use crate::model::{Hinge, Model, RootJoint, not_negative};
@@ -16,6 +16,26 @@ const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Returns whether a joint leaves all six degrees of freedom.
 pub(super) fn is_free(joint: &Element) -> bool {
     joint.tag == "freejoint" || joint.get("type") == Some("free")
+}
+
+/// Returns whether a body moves freely by three slides along x, y and z and a ball joint, on which nothing else acts.
+pub(super) fn are_free(body: &BodyNode) -> bool {
+    let at_rest = |joint: &Element| {
+        let is_zero = |name: &&str| joint.list(name).is_none_or(|all| all.iter().all(|number| *number == 0.0));
+        let unmoved =
+            ["pos", "ref", "stiffness", "damping", "armature", "frictionloss", "springdamper"].iter().all(is_zero);
+        unmoved && !joint.is_true("limited", false) && joint.list("range").is_none()
+    };
+    let is = |joint: &Element, kind: &str| joint.get("type") == Some(kind);
+    let along = |(joint, axis): (&(Element, Pose), [f64; 3])| {
+        is(&joint.0, "slide") && joint.0.list_over("axis", [0.0, 0.0, 1.0]) == axis
+    };
+    let [slides @ .., ball] = &body.joints[..] else { return false };
+    slides.len() == 3
+        && slides.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).all(along)
+        && is(&ball.0, "ball")
+        && body.joints.iter().all(|(joint, frame)| at_rest(joint) && frame.isometry() == Isometry3::identity())
+        && body.pose.isometry().rotation == UnitQuaternion::identity()
 }
 
 /// Reads the root's free joint, which must have no spring.

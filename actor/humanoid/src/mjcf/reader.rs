@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Matrix3, Point3};
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
 use super::element::Element;
 use super::equalities::EqualityReader;
@@ -69,6 +69,8 @@ struct Reader<'a> {
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
     root: Option<RootJoint>,
+    /// Where the root is at the position 0 of the text (m).
+    root_place_m: Vector3<f64>,
     floor: Option<Floor>,
     /// EqualityReader of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
@@ -91,6 +93,7 @@ impl<'a> Reader<'a> {
             bodies: Vec::new(),
             hinges: Vec::new(),
             root: None,
+            root_place_m: Vector3::zeros(),
             floor: None,
             parts: Vec::new(),
             rules: Vec::new(),
@@ -176,16 +179,26 @@ impl<'a> Reader<'a> {
         Ok(Placement { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() })
     }
 
-    fn read_root(&self, body: &BodyNode) -> Result<RootJoint, ModelError> {
+    fn read_root(&mut self, body: &BodyNode) -> Result<RootJoint, ModelError> {
         let refuse = |problem: &str| Err(ModelError::unsupported(&body.name, problem));
+        if !self.bodies.is_empty() {
+            return refuse("there may be only one root, above all other bodies");
+        }
+        if body.parent == 0 && joints::are_free(body) {
+            let place = body.pose.isometry().translation.vector;
+            self.root_place_m = place;
+            self.simplifications.push(format!(
+                "root `{}`: its slides and ball count as a free joint, whose place is {:?} in the pose of the text, not 0",
+                body.name,
+                place.as_slice()
+            ));
+            return Ok(RootJoint::default());
+        }
         let [(joint, _)] = &body.joints[..] else {
-            return refuse("the root must have one free joint and no other joint");
+            return refuse("the root must have one free joint and no other joint; give it <freejoint/> instead");
         };
         if !joints::is_free(joint) || body.parent != 0 {
             return refuse("the root, directly below the world, must have a free joint");
-        }
-        if !self.bodies.is_empty() {
-            return refuse("there may be only one root, above all other bodies");
         }
         joints::read_free(joint)
     }
@@ -305,7 +318,7 @@ impl<'a> Reader<'a> {
         let joints = tree.bodies.iter().flat_map(|body| &body.joints).map(|(joint, _)| joint);
         joints::resolve_spring_dampers(joints, &mut model);
         motors::resolve_damping_ratios(&mut model)?;
-        model.keyframes = keyframes::read(&model, &tree.keys)?;
+        model.keyframes = keyframes::read(&model, &tree.keys, self.root_place_m)?;
         if let Some(card) = &tree.card {
             card.apply(&mut model)?;
         }

@@ -102,7 +102,7 @@ const GEOM: &Rules = &[
     ("fromto", Numbers(6, 6)),
     // In MuJoCo 4.0 contacts within a gap beyond the margin are seen, but without force.
     ("mass density margin gap solmix", Numbers(1, 1)),
-    ("shellinertia", Only("false")),
+    ("shellinertia", BOOLEAN),
     ("contype conaffinity condim priority", Whole(1, 1)),
     ("solref", Numbers(1, 2)),
     ("solimp", Numbers(1, 5)),
@@ -169,7 +169,7 @@ const MESH: &Rules = &[
     ("vertex", Numbers(12, 3 * MESH_VERTICES_MAX)),
     ("scale refpos", Numbers(3, 3)),
     ("refquat", Numbers(4, 4)),
-    ("inertia", Only("convex|exact|legacy")),
+    ("inertia", Only("convex|exact|legacy|shell")),
     ("maxhullvert", Only("-1")),
     ("face", Whole(3, 6 * MESH_VERTICES_MAX)),
     ("normal texcoord smoothnormal content_type material octree_maxdepth", Inert),

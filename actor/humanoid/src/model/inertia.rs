@@ -2,9 +2,9 @@
 //!
 //! As in MuJoCo, all are sums over the shapes, so that overlaps count twice.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 use super::geometry::Geometry;
 use super::moments::Moments;
@@ -70,6 +70,59 @@ pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProper
             || from_principal(&Isometry3::identity(), 0.0, Vector3::zeros()),
             |moments| moments.mass_properties(density_kgpm3),
         ),
+    }
+}
+
+/// Returns the mass properties of a thin shell of uniform density (kg/m²); `None` for ellipsoids and hulls.
+pub(crate) fn of_shell(geometry: &Geometry, density_kgpm2: f64) -> Option<MassProperties> {
+    let at = |pose: &Isometry3<f64>, z_m: f64| pose * Isometry3::translation(0.0, 0.0, z_m);
+    // A tube, and what closes it: mass and inertia across and along its axis, and the distance from the middle.
+    let closed_tube = |pose: &Isometry3<f64>, radius_m: f64, half_m: f64, [kg, across, along, centre_m]: [f64; 4]| {
+        let tube_kg = density_kgpm2 * TAU * radius_m * 2.0 * half_m;
+        let square = radius_m * radius_m;
+        let tube_across = tube_kg * (square / 2.0 + half_m * half_m / 3.0);
+        let tube = from_principal(pose, tube_kg, Vector3::new(tube_across, tube_across, tube_kg * square));
+        let end = |sign: f64| {
+            let inertia = Vector3::new(across, across, along) * (kg * square);
+            from_principal(&at(pose, sign * centre_m), kg, inertia)
+        };
+        sum(&[tube, end(1.0), end(-1.0)])
+    };
+    let half_sphere = |radius_m: f64, half_m: f64| {
+        // About its own centre of mass, which is half a radius above its rim: 2/3 − 1/4.
+        [density_kgpm2 * TAU * radius_m.powi(2), 5.0 / 12.0, 2.0 / 3.0, half_m + radius_m / 2.0]
+    };
+    match *geometry {
+        Geometry::Sphere { centre_m, radius_m } => {
+            let pose = Isometry3::from_parts(centre_m.coords.into(), UnitQuaternion::identity());
+            closed_tube(&pose, radius_m, 0.0, half_sphere(radius_m, 0.0))
+        }
+        Geometry::Capsule { from_m, to_m, radius_m } => {
+            let axis = to_m - from_m;
+            let half_m = axis.norm() / 2.0;
+            let turn = UnitQuaternion::rotation_between(&Vector3::z(), &axis);
+            let turn = turn.unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI));
+            let pose = Isometry3::from_parts(nalgebra::center(&from_m, &to_m).coords.into(), turn);
+            closed_tube(&pose, radius_m, half_m, half_sphere(radius_m, half_m))
+        }
+        Geometry::Cylinder { pose, radius_m, half_length_m } => {
+            let disc = [density_kgpm2 * PI * radius_m.powi(2), 1.0 / 4.0, 1.0 / 2.0, half_length_m];
+            closed_tube(&pose, radius_m, half_length_m, disc)
+        }
+        Geometry::Box { pose, half_m } => {
+            let plates = (0..3).flat_map(|axis| {
+                let (mut flat, mut place_m) = (half_m, Vector3::zeros());
+                flat[axis] = 0.0;
+                place_m[axis] = half_m[axis];
+                let kg = density_kgpm2 * 4.0 * half_m.product() / half_m[axis];
+                [place_m, -place_m].map(|place_m| {
+                    let pose = pose * Isometry3::from_parts(place_m.into(), UnitQuaternion::identity());
+                    from_principal(&pose, kg, sums_of_squares(&flat) * (kg / 3.0))
+                })
+            });
+            sum(&plates.collect::<Vec<_>>())
+        }
+        Geometry::Ellipsoid { .. } | Geometry::Hull { .. } => None,
     }
 }
 

@@ -29,7 +29,8 @@ pub struct Mirror {
     pub action: SignedPermutation,
     /// Index of each link's image.
     pub links: Vec<usize>,
-    /// Greatest distance of a hinge from the image of its counterpart (m), which the mirror neglects.
+    /// Greatest distance of a hinge from the image of its counterpart (m), which the mirror neglects; held hinges that have
+    /// none do not count.
     pub apart_m: f64,
 }
 
@@ -74,7 +75,9 @@ impl Mirror {
                     });
                 };
                 let (apart_m, cosine) = offset(image);
-                largest_m = largest_m.max(apart_m);
+                if fits(image) {
+                    largest_m = largest_m.max(apart_m);
+                }
                 bodies[body] = model.body_of_hinge(image);
                 hinges.push((image, cosine.signum() as f32));
             }

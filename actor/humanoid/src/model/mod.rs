@@ -160,7 +160,7 @@ pub struct Shape {
 /// Free joint of the root: forces that act alike on each of its six degrees of freedom.
 ///
 /// These are the root's velocity along the world's axes (m, N, kg) and its rate about its own axes (rad, N·m, kg·m²).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RootJoint {
     /// Viscous friction (N·s/m and N·m·s/rad).
     pub damping: f64,

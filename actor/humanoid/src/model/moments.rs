@@ -51,6 +51,19 @@ impl Moments {
         about_mass.transformed(&Matrix3::identity(), &centre)
     }
 
+    /// Returns the sums over the faces themselves, with the area instead of the volume: those of a thin shell.
+    pub(crate) fn of_shell(points: &[Point3<f64>], faces: &[[usize; 3]]) -> Self {
+        faces.iter().fold(Self::default(), |mut moments, face| {
+            let [a, b, c] = face.map(|corner| points[corner].coords);
+            let (area, total) = ((b - a).cross(&(c - a)).norm() / 2.0, a + b + c);
+            moments.volume += area;
+            moments.first += total * (area / 3.0);
+            let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
+            moments.second += (squares + total * total.transpose()) * (area / 12.0);
+            moments
+        })
+    }
+
     /// Returns the sums over the tetrahedra between each face and `inside`, about that point.
     fn about(inside: &Vector3<f64>, points: &[Point3<f64>], faces: &[[usize; 3]], sum: Sum) -> Self {
         faces.iter().fold(Self::default(), |mut moments, face| {
@@ -142,6 +155,20 @@ mod tests {
         }
         let turned: Vec<[usize; 3]> = faces.iter().map(|[a, b, c]| [*c, *b, *a]).collect();
         assert!((Moments::of_faces(&points, &turned, Sum::Signed).volume() + 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_shell_has_the_sums_of_its_faces() {
+        // Corner of a cube of side 3.
+        let points = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(Point3::from);
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let found = Moments::of_shell(&points, &faces).mass_properties(1.0);
+        // Three right triangles of 4.5 m² and one of side √18 m.
+        let slanted_m2 = 18.0 * 3f64.sqrt() / 4.0;
+        assert!((found.mass_kg - (13.5 + slanted_m2)).abs() < 1e-12);
+        // Each right triangle has its centre at 1 along two axes, the slanted one at 1 along all three.
+        let centre_m = (2.0 * 4.5 + slanted_m2) / found.mass_kg;
+        assert!((found.centre_m - Point3::from([centre_m; 3])).norm() < 1e-12, "{}", found.centre_m);
     }
 
     #[test]

@@ -84,7 +84,7 @@ fn impossible_meshes_are_refused_by_name() {
         (solid, "file='horn.obj'", &["horn", "mesh `scaled`", "its file"]),
         ("scale='2 3 1'", "scale='2 3 1e9'", &["mesh `scaled`", "scale"]),
         ("scale='2 3 1'", "scale='2 3 0'", &["mesh `scaled`", "plane"]),
-        ("scale='2 3 1'", "inertia='shell'", &["mesh `scaled`", "inertia", "shell"]),
+        ("scale='2 3 1'", "inertia='hull'", &["mesh `scaled`", "inertia", "hull"]),
         ("scale='2 3 1'", "maxhullvert='8'", &["mesh `scaled`", "maxhullvert"]),
         ("scale='2 3 1'", "face='0 1 9'", &["mesh `scaled`", "`face`", "below 5"]),
         ("scale='2 3 1'", "face='0 1 2 3'", &["mesh `scaled`", "`face`", "three"]),

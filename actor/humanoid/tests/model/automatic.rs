@@ -364,3 +364,25 @@ fn servos_that_cannot_hold_the_robot_are_named_with_a_gain_that_can() {
     let feeble = examined("effort_nm", "2.0");
     assert!(feeble.contains("`right_knee` gives all of its effort of 2.000 N·m"), "{feeble}");
 }
+
+#[test]
+fn hinges_that_follow_others_have_no_servo() {
+    let mimic =
+        "<equality><joint joint1='right_shoulder' joint2='left_shoulder' polycoef='0.2 -1'/></equality></mujoco>";
+    let (model, proposal) = found(&changed(&upright(), "</mujoco>", mimic));
+    assert!(proposal.card.contains("held = true  # follows `left_shoulder`"), "{}", proposal.card);
+    let robot = model.robot.as_ref().expect("it has a card");
+    let right = model.hinges.iter().position(|hinge| hinge.name == "right_shoulder").expect("a hinge");
+    let control = &robot.hinges[right];
+    assert_eq!((control.kp, control.kd, control.is_held), (0.0, 0.0, true));
+    assert_eq!((model.hinges[right].stiffness_nmprad, model.hinges[right].damping_nmsprad), (0.0, 0.0));
+    assert!((home_rad(&model, "right_shoulder") - (0.2 - home_rad(&model, "left_shoulder"))).abs() < 1e-6);
+    let mut physics = at_home(&model);
+    let controls: Vec<f32> = model.motors.iter().map(|motor| robot.default_position[7 + motor.hinge] as f32).collect();
+    for _ in 0..40 {
+        physics.step_only(&controls).expect("finite");
+    }
+    let [left, right] = ["left_shoulder", "right_shoulder"]
+        .map(|name| physics.joint_angles()[model.hinges.iter().position(|hinge| hinge.name == name).expect("a hinge")]);
+    assert!((right - (0.2 - left)).abs() < 0.01, "{left} {right}");
+}

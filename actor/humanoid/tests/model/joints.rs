@@ -80,6 +80,31 @@ fn a_freejoint_element_has_no_defaults() {
 }
 
 #[test]
+fn three_slides_and_a_ball_are_a_free_joint() {
+    let root = "<body pos='0 0 1' euler='0.3 0.2 0.1'>";
+    let free = "<joint name='root' type='free' armature='0.2' damping='3' frictionloss='0.5'/>";
+    let text = changed(SERVOS, root, "<body pos='0.1 0 1'>");
+    let slides: String = ["1 0 0", "0 1 0", "0 0 1"]
+        .iter()
+        .map(|axis| format!("<joint type='slide' axis='{axis}' margin='0'/>"))
+        .collect();
+    let model =
+        Model::from_mjcf(&changed(&text, free, &format!("{slides}<joint type='ball' margin='0'/>"))).expect("valid");
+    assert_eq!(model.root, treadmill_humanoid::model::RootJoint::default());
+    // Keyframes count from the pose of the text; those of the second one are left out.
+    for (key, wanted) in model.keyframes.iter().zip([[0.2, 0.2, 1.7], [0.1, 0.0, 1.0]]) {
+        assert!(
+            key.position[..3].iter().zip(wanted).all(|(one, other)| (one - other).abs() < 1e-12),
+            "{:?}",
+            key.position
+        );
+    }
+    assert!(model.simplifications.iter().any(|note| note.contains("count as a free joint")));
+    let sprung = format!("{slides}<joint type='ball' margin='0' damping='1'/>");
+    assert!(problem(&changed(&text, free, &sprung)).contains("<freejoint/>"));
+}
+
+#[test]
 fn degrees_do_not_apply_to_margins_and_tendons() {
     let model = Model::from_mjcf(&changed(SERVOS, "angle='radian'", "angle='degree'")).expect("valid");
     // MuJoCo 4.0's `jnt_margin` and `tendon_range`.

@@ -104,6 +104,17 @@ fn masses_hinges_and_shapes_are_those_of_the_file() {
     };
     assert_eq!((radius_m, half_length_m), (0.05, 0.15));
     assert_eq!(model.simplifications[0], "not simulated: <gazebo> (1), <safety_controller> (1), <transmission> (2)");
+    assert_eq!(model.simplifications[1], "speeds are not limited: the file allows 5 rad/s (`hip`) to 5 rad/s");
+}
+
+#[test]
+fn a_fixed_link_may_have_mass_without_inertia() {
+    let lens = r#"<link name="lens"><inertial><mass value="0.01"/><inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
+        </inertial></link><joint name="glued" type="fixed"><parent link="pelvis"/><child link="lens"/></joint></robot>"#;
+    let urdf = ROBOT.replacen("</robot>", lens, 1);
+    assert!((model(&urdf).bodies[0].mass_kg - 12.01).abs() < 1e-12);
+    // MuJoCo 4.0 refuses `fullinertia` of zeros.
+    assert!(text(&urdf).expect("a robot").contains(r#"mass="0.01" diaginertia="0 0 0""#));
 }
 
 #[test]

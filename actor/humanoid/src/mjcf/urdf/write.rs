@@ -27,8 +27,16 @@ pub(super) fn mjcf(
     compiler: Option<Node<'_, '_>>,
     notices: Vec<String>,
 ) -> Result<String, ModelError> {
-    let mut writer =
-        Writer { robot, tree, search, bodies: String::new(), motors: String::new(), meshes: BTreeMap::new(), notices };
+    let mut writer = Writer {
+        robot,
+        tree,
+        search,
+        bodies: String::new(),
+        motors: String::new(),
+        meshes: BTreeMap::new(),
+        speeds_radps: Vec::new(),
+        notices,
+    };
     let root = tree.links[tree.root];
     if tree.has_world {
         writer.shapes(root)?;
@@ -56,11 +64,18 @@ struct Writer<'a> {
     motors: String,
     /// Name of each file and scale.
     meshes: BTreeMap<(PathBuf, String), String>,
+    /// Greatest speed of each hinge, with its name.
+    speeds_radps: Vec<(f64, String)>,
     notices: Vec<String>,
 }
 
 impl Writer<'_> {
-    fn finish(self, compiler: Option<Node<'_, '_>>) -> String {
+    fn finish(mut self, compiler: Option<Node<'_, '_>>) -> String {
+        self.speeds_radps.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if let [(least, slowest), .., (most, _)] = &self.speeds_radps[..] {
+            let note = format!("speeds are not limited: the file allows {least} rad/s (`{slowest}`) to {most} rad/s");
+            self.notices.push(note);
+        }
         let mut text = String::from("<mujoco>\n");
         let given = |name: &str| compiler.and_then(|node| node.attribute(name)).map(|value| attribute(name, value));
         let mut settings = vec![attribute("angle", "radian"), attribute("autolimits", "true")];
@@ -129,6 +144,9 @@ impl Writer<'_> {
                 attributes.push(attribute(name, value));
             }
         }
+        if joint.limit.velocity > 0.0 && joint.limit.velocity.is_finite() {
+            self.speeds_radps.push((joint.limit.velocity, joint.name.clone()));
+        }
         let effort_nm = joint.limit.effort;
         if effort_nm < 0.0 {
             return Err(ModelError::attribute(&label, "effort", &effort_nm.to_string(), "at least 0 N·m".to_owned()));
@@ -167,12 +185,13 @@ impl Writer<'_> {
             // Tools write zeros as rounding errors, whose matrix would have a negative principal inertia.
             let number = |entry| if f64::abs(turned[entry]) < INERTIA_LEAST_KGM2 { 0.0 } else { turned[entry] };
             let full = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(number);
-            let attributes = [
-                attribute("pos", numbers(pose.translation.vector.iter())),
-                attribute("mass", inertial.mass.value),
-                attribute("fullinertia", numbers(&full)),
-            ];
-            xml::write(&mut self.bodies, "inertial", &attributes);
+            let inertia = match full {
+                // MuJoCo refuses a matrix of zeros, which a fixed link may have, but not the principal inertias.
+                [0.0, 0.0, 0.0, 0.0, 0.0, 0.0] => attribute("diaginertia", "0 0 0"),
+                full => attribute("fullinertia", numbers(&full)),
+            };
+            let place = attribute("pos", numbers(pose.translation.vector.iter()));
+            xml::write(&mut self.bodies, "inertial", &[place, attribute("mass", inertial.mass.value), inertia]);
         }
         self.shapes(link)?;
         let tree = self.tree;
