@@ -138,6 +138,13 @@ class TransferTest(unittest.TestCase):
         with self.assertRaisesRegex(TransferError, "excluded_bodies"):
             read_contract(json.dumps({**contract(), "excluded_bodies": [["trunk"]]}))
 
+    def test_a_pair_may_name_the_floor_of_the_scene(self):
+        pair = '<contact><pair geom1="trunk_box" geom2="floor" friction="0.3 0.3"/></contact></mujoco>'
+        text = ROBOT.replace("FLOOR", "").replace('<geom type="box"', '<geom name="trunk_box" type="box"', 1)
+        self.model.write_text(text.replace("</mujoco>", pair))
+        robot = Robot(self.model, read_contract(json.dumps({**contract(), "excluded_bodies": [["base", "left"]]})))
+        self.assertEqual((robot.model.npair, robot.model.geom("floor").type[0]), (1, mujoco.mjtGeom.mjGEOM_PLANE))
+
     def test_velocity_is_seen_in_the_heading_frame(self):
         cos, sin = math.cos(0.3), math.sin(0.3)
         # Turned left by 90°, then pitched about its own left by 0.3.

@@ -308,7 +308,9 @@ def _add_servos(spec, path, contract, notes):
     # Pairs that the file lists touch whatever is excluded.
     excluded = [set(pair) for pair in contract.excluded_bodies]
     for listed in list(spec.pairs):
-        if {spec.geom(name).parent.name for name in (listed.geomname1, listed.geomname2)} in excluded:
+        geoms = [spec.geom(name) for name in (listed.geomname1, listed.geomname2)]
+        # A robot's file may name the floor of its scene.
+        if all(geoms) and {geom.parent.name for geom in geoms} in excluded:
             spec.delete(listed)
     plain = plain_actuator()
     for joints in (contract.joints, contract.held):
@@ -337,7 +339,9 @@ def replace_floor(spec, ground, notes):
     floors = [geom for geom in spec.geoms if geom.type in (_GEOMS.mjGEOM_PLANE, _GEOMS.mjGEOM_HFIELD)]
     if ground is None:
         if not floors:
-            spec.worldbody.add_geom(name="treadmill_floor", type=_GEOMS.mjGEOM_PLANE, size=[0.0, 0.0, 0.05])
+            # The name by which pairs of contacts may know the floor of another file, as in training.
+            name = "floor" if spec.geom("floor") is None else "treadmill_floor"
+            spec.worldbody.add_geom(name=name, type=_GEOMS.mjGEOM_PLANE, size=[0.0, 0.0, 0.05])
             notes.append("the model has no floor, so a plane was added")
         return
     low_m, high_m = ground.heights_m.min(), ground.heights_m.max()

@@ -14,8 +14,8 @@ const NOTICE: &str = "treadmill_notice";
 /// Attributes of earlier versions that MuJoCo 4.0 does not know, by element.
 const GONE: [(&str, &str); 5] = [
     ("compiler", "convexhull exactmeshinertia"),
-    ("option", "apirate mpr_iterations mpr_tolerance"),
-    ("flag", "passive"),
+    ("option", "apirate collision mpr_iterations mpr_tolerance"),
+    ("flag", "passive sensornoise"),
     ("motor position velocity", "actlimited actearly"),
     ("mesh", "octree_maxdepth"),
 ];

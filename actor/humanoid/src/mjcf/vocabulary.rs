@@ -63,6 +63,7 @@ const OPTION: &Rules = &[
     ("density viscosity", Only("0")),
     ("solver", Choice("Newton|CG|PGS")),
     ("timestep", Numbers(1, 1)),
+    ("collision", Only("all")),
     ("magnetic apirate impratio integrator cone jacobian iterations tolerance", Inert),
     ("ls_iterations ls_tolerance noslip_iterations noslip_tolerance mpr_iterations mpr_tolerance", Inert),
     ("ccd_iterations ccd_tolerance sleep_tolerance sdf_iterations sdf_initpoints", Inert),
@@ -73,7 +74,7 @@ const FLAG: &Rules = &[
     ("filterparent actuation", Only("enable")),
     ("override", Only("disable")),
     ("warmstart refsafe sensor midphase nativeccd eulerdamp autoreset energy fwdinv invdiscrete", Inert),
-    ("multiccd island sleep", Inert),
+    ("multiccd island sleep sensornoise", Inert),
 ];
 
 const BODY: &Rules =

@@ -168,6 +168,37 @@ fn files_that_cannot_be_used_are_named() {
 }
 
 #[test]
+fn an_stl_of_text_is_read_and_noted() {
+    let folder = robot("text-stl");
+    let facet = |corners: [[f32; 3]; 3]| {
+        let corners = corners.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let facets =
+        [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|face| facet(face.map(|corner: usize| points[corner])));
+    folder.write("parts/skull.stl", format!("solid skull\n{}endsolid skull\n", facets.concat()));
+    let model = Model::from_mjcf(&folder.read("robot.xml").expect("all there")).expect("valid");
+    assert_eq!(corners(&model, 0).len(), 4);
+    let note = "MuJoCo 4.0 does not read the file of mesh `skull`, which is an STL of text";
+    assert!(model.simplifications.iter().any(|found| found == note), "{:?}", model.simplifications);
+    let binary = Model::from_mjcf(&robot("binary-stl").read("robot.xml").expect("all there")).expect("valid");
+    assert!(binary.simplifications.iter().all(|found| !found.contains("MuJoCo")), "{:?}", binary.simplifications);
+}
+
+#[test]
+fn the_last_folder_of_assets_counts() {
+    let folder = robot("folders");
+    let read = |compilers: &str| {
+        folder.write("changed.xml", ROBOT.replacen("<compiler meshdir='parts' assetdir='unused'/>", compilers, 1));
+        folder.read("changed.xml")
+    };
+    assert!(read("<compiler assetdir='unused'/><compiler meshdir='parts'/>").is_ok());
+    let problem = read("<compiler meshdir='parts'/><compiler assetdir='elsewhere'/>").expect_err("no such folder");
+    assert!(problem.contains("elsewhere"), "{problem}");
+}
+
+#[test]
 fn the_mass_of_a_mesh_file_is_that_of_the_whole_mesh() {
     let folder = Folder::new("masses");
     let model = |mesh: &str| {

@@ -129,6 +129,23 @@ fn masses_and_sizes_must_be_physically_possible() {
 }
 
 #[test]
+fn what_mujoco_refuses_is_noted() {
+    for (from, to, part) in [
+        ("timestep='0.002'", "timestep='0.002' apirate='100'", "<option> has `apirate`"),
+        ("timestep='0.002'", "timestep='0.002' collision='all'", "<option> has `collision`"),
+        ("timestep='0.002'/>", "timestep='0.002'><flag sensornoise='enable'/></option>", "<flag> has `sensornoise`"),
+        ("angle='radian'", "angle='radian' convexhull='true'", "<compiler> has `convexhull`"),
+        ("ctrlrange='-1 1'", "ctrlrange='-1 1' actlimited='false'", "<motor> has `actlimited`"),
+        ("class='limb'/>", "class='limb'><geom/><joint/><geom/></default>", "class `limb` has <geom> twice"),
+    ] {
+        let notes = Model::from_mjcf(&changed(ARM, from, to)).expect(to).simplifications;
+        let is_noted = |note: &String| note.contains("MuJoCo 4.0 refuses this file") && note.contains(part);
+        assert!(notes.iter().any(is_noted), "{to}: {notes:?}");
+    }
+    assert!(Model::from_mjcf(ARM).expect("valid").simplifications.is_empty());
+}
+
+#[test]
 fn unsupported_physics_is_refused_by_name() {
     Text(ARM).assert_refused(&[
         ("axis='0 1 0' range", "type='slide' axis='0 1 0' range", &["shoulder", "slide"]),
