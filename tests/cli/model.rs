@@ -41,7 +41,7 @@ fn train(folder: &Path, run: &Path, model: &str, more: &[&str]) -> std::process:
 #[test]
 fn every_command_names_the_file_of_an_unusable_model() {
     let (folder, run) = folders();
-    let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" shellinertia=\"true\"");
+    let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" condim=\"5\"");
     write(folder.path(), "bent.xml", &bent);
     write(folder.path(), "notes.xml", "remember the milk");
     write(folder.path(), "empty.xml", "");
@@ -49,7 +49,7 @@ fn every_command_names_the_file_of_an_unusable_model() {
     write(folder.path(), "parts.xml", "<mujoco><include file=\"legs.xml\"/></mujoco>");
     let cases: [(&str, &[&str]); 6] = [
         ("missing.xml", &["missing.xml", "cannot be read", "No such file"]),
-        ("bent.xml", &["bent.xml", "`chest`", "shellinertia", "true", "false"]),
+        ("bent.xml", &["bent.xml", "`chest`", "condim", "1, 3, 4 or 6"]),
         ("notes.xml", &["notes.xml", "not valid MJCF"]),
         ("empty.xml", &["empty.xml", "empty"]),
         ("huge.xml", &["huge.xml", "4194305 bytes", "4194304"]),
