@@ -193,9 +193,8 @@ impl Composition<'_> {
         self.check_size(all.map(Piece::length).sum())?;
         self.root.add_all(copies);
         let mut frame = Piece::frame(&Pose::IDENTITY);
-        if let Some(class) = class {
-            frame.set("childclass", &class);
-        }
+        // The class of what surrounds it there, not here.
+        frame.set("childclass", class.as_deref().unwrap_or("main"));
         frame.children = found;
         Ok(frame)
     }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use super::Model;
 use super::robot::counterpart;
+use super::{Coupling, Model};
 
 /// For each entry of a mirrored vector, the index and the sign of the original entry that it holds.
 pub type SignedPermutation = Vec<(usize, f32)>;
@@ -12,6 +12,8 @@ pub type SignedPermutation = Vec<(usize, f32)>;
 /// files round, and some real robots differ a little from left to right.
 const APART_MAX_M: f64 = 0.01;
 const COSINE_MIN: f64 = 1.0 - 1e-3;
+/// Greatest relative difference between the numbers of two equalities.
+const COUPLING_MAX: f64 = 1e-3;
 /// Greatest difference between the masses of two counterparts that are found by their places, as a share.
 const MASS_MAX: f64 = 0.2;
 
@@ -82,6 +84,7 @@ impl Mirror {
                 hinges.push((image, cosine.signum() as f32));
             }
         }
+        check_couplings(&model.couplings, &hinges)?;
         let mut action = Vec::new();
         for motor in &model.motors {
             let (hinge, sign) = hinges[motor.hinge];
@@ -101,6 +104,34 @@ impl Mirror {
             apart_m: largest_m,
         })
     }
+}
+
+/// Checks that the mirror image of each coupling is a coupling; `hinges` has the image and the sign of each hinge.
+fn check_couplings(couplings: &[Coupling], hinges: &[(usize, f32)]) -> Result<(), String> {
+    let equal = |one: f64, other: f64| (one - other).abs() <= COUPLING_MAX * one.abs().max(1.0);
+    for coupling in couplings {
+        let (image, sign) = hinges[coupling.hinge];
+        let offset_rad = f64::from(sign) * coupling.offset_rad;
+        let follows = coupling.follows.map(|(other, ratio)| {
+            let (other, other_sign) = hinges[other];
+            (other, f64::from(sign * other_sign) * ratio)
+        });
+        let is_image = |found: &Coupling| match (found.follows, follows) {
+            (None, None) => found.hinge == image && equal(found.offset_rad, offset_rad),
+            (Some((leads, found_ratio)), Some((other, ratio))) => {
+                let same = found.hinge == image && leads == other;
+                let swapped = found.hinge == other && leads == image;
+                (same && equal(found_ratio, ratio) && equal(found.offset_rad, offset_rad))
+                    // y = a + b x is x = −a/b + y/b.
+                    || (swapped && equal(found_ratio * ratio, 1.0) && equal(found.offset_rad * ratio, -offset_rad))
+            }
+            _ => false,
+        };
+        if !couplings.iter().any(is_image) {
+            return Err(format!("the equality `{}` has no mirror image", coupling.name));
+        }
+    }
+    Ok(())
 }
 
 /// Returns how far the mirror image of a place is from another one (m), and the cosine between its axis and the other's.

@@ -385,4 +385,9 @@ fn hinges_that_follow_others_have_no_servo() {
     let [left, right] = ["left_shoulder", "right_shoulder"]
         .map(|name| physics.joint_angles()[model.hinges.iter().position(|hinge| hinge.name == name).expect("a hinge")]);
     assert!((right - (0.2 - left)).abs() < 0.01, "{left} {right}");
+    // The mirror image is the same equality, but not if the ratio is another one.
+    assert!(Mirror::of(&model).is_ok());
+    let (lopsided, _) = found(&changed(&upright(), "</mujoco>", &mimic.replace("0.2 -1", "0.2 0.5")));
+    let problem = Mirror::of(&lopsided).expect_err("one side follows the other");
+    assert!(problem.contains("the equality `right_shoulder` has no mirror image"), "{problem}");
 }
