@@ -83,6 +83,9 @@ def features() -> dict[str, str]:
         "joint_spring": model(joint='stiffness="20" springref="30" damping="0.5"'),
         "joint_spring_powers": model(joint='stiffness="20 30 40" springref="20"'),
         "joint_damping_powers": model(joint='damping="1 2 3"'),
+        "joint_springdamper_motor": model(
+            joint='springdamper=".05 .7" damping="0.3"', actuator=f'<motor {servo} gear="5" damping="0.02" armature="0.001"/>'
+        ),
         "joint_springdamper": model(joint='springdamper=".05 .7" armature="0.01"'),
         "joint_armature": model(joint='armature="0.1"'),
         "joint_friction": model(joint='frictionloss="0.5"'),
@@ -118,8 +121,23 @@ def features() -> dict[str, str]:
             '<joint name="q"/><geom size=".04"/></body></replicate></replicate>',
             sections='<tendon><fixed name="t" range="-.05 .05" solreflimit=".05 1"><joint joint="q" coef="1"/></fixed></tendon>',
         ),
+        "replicate_axes": model(
+            more='<replicate count="10" offset=".1 .2 .3" euler="10 20 30"><body name="q" pos=".3 0 0"><joint name="q"/><geom size=".04" '
+            'contype="0" conaffinity="0"/></body></replicate>',
+            actuator=MOTOR + '<motor name="qm" joint="q" ctrlrange="-1 1"/>',
+        ),
+        "replicate_equality": model(
+            more='<replicate count="3" offset="0 .15 0"><body name="q" pos=".3 0 0"><joint name="q"/><joint name="p" axis="1 0 0"/>'
+            '<geom size=".04" pos="0 0 .05"/></body></replicate>',
+            sections=equality('<joint joint1="q" joint2="p"/><joint joint1="q" joint2="j"/><connect body1="upper" body2="q" anchor="0 0 0"/>'),
+        ),
         "replicate_geoms": model(within='<replicate count="12" euler="0 0 30"><geom size=".02" pos=".1 0 0"/></replicate>'),
         "attach_itself": model(more='<body pos="-.2 0 0"><attach body="upper" prefix="x_"/></body>'),
+        "attach_main": model(
+            head='<default><geom friction="0.7"/><joint damping="0.4"/></default><asset><model name="hand" file="_hand.xml"/></asset>',
+            joint='class="main"',
+            within='<attach model="hand" body="finger" prefix="l_"/>',
+        ),
         "attach_model": model(
             head='<default><geom friction="0.7"/><joint armature="0.02"/></default><asset><model name="hand" file="_hand.xml"/></asset>',
             within='<frame pos="0 .1 -.3" euler="0 0 30"><attach model="hand" body="palm" prefix="l_"/></frame>',

@@ -27,7 +27,7 @@ from treadmill_transfer.contract import Policy, TransferError, read_contract
 from treadmill_transfer.controller import Controller, height_scan, phase
 from treadmill_transfer.ground import Ground
 from treadmill_transfer.play import play_episode, summary
-from treadmill_transfer.robot import Robot, heading_velocity, substeps
+from treadmill_transfer.robot import Robot, heading_velocity, read_model, substeps
 from treadmill_transfer.trace import TOLERANCES, compare
 
 from transfer_samples import FLOOR, ROBOT, WIDTH, contract, network
@@ -137,6 +137,16 @@ class TransferTest(unittest.TestCase):
         self.assertEqual((excluding.model.npair, excluding.model.nexclude), (0, 1))
         with self.assertRaisesRegex(TransferError, "excluded_bodies"):
             read_contract(json.dumps({**contract(), "excluded_bodies": [["trunk"]]}))
+
+    def test_rotors_of_the_file_s_actuators_stay(self):
+        if not hasattr(mujoco.MjSpec().add_actuator(), "armature"):
+            self.skipTest("this MuJoCo knows no rotors of actuators")
+        joint = mujoco.MjModel.from_xml_path(str(self.model)).joint("left_arm")
+        motor = '<motor joint="left_arm" gear="3" damping="0.1 0.2" armature="0.01"/>'
+        self.model.write_text(self.model.read_text().replace('<motor joint="left_arm"/>', motor))
+        spec = read_model(self.model)
+        numpy.testing.assert_allclose(spec.joint("left_arm").damping, [joint.damping[0] + 0.9, 1.8, 0.0])
+        self.assertAlmostEqual(spec.joint("left_arm").armature, joint.armature[0] + 0.09)
 
     def test_a_pair_may_name_the_floor_of_the_scene(self):
         pair = '<contact><pair geom1="trunk_box" geom2="floor" friction="0.3 0.3"/></contact></mujoco>'

@@ -258,6 +258,8 @@ def read_model(path):
         spec = mujoco.MjSpec.from_file(str(path))
     except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
         raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
+    # What spins in an actuator belongs to its joint, as in training.
+    _move_rotors(spec)
     # Keyframes hold controls of the file's actuators, and such sensors their forces.
     actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
     for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
@@ -265,6 +267,18 @@ def read_model(path):
     # MuJoCo 4.0.0 computes wrong accelerations with its sparse solver (its issue 3767).
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     return spec
+
+
+def _move_rotors(spec):
+    """Adds armature and damping of the file's actuators to their joints, times the square of the gear."""
+    for actuator in spec.actuators:
+        joint = spec.joint(actuator.target) if actuator.trntype == mujoco.mjtTrn.mjTRN_JOINT else None
+        # Versions before 4.0 have neither.
+        if joint is None or not hasattr(actuator, "armature"):
+            continue
+        square = actuator.gear[0] ** 2
+        joint.armature += square * actuator.armature
+        joint.damping = numpy.asarray(joint.damping) + square * numpy.asarray(actuator.damping)
 
 
 def compiled(spec, path):

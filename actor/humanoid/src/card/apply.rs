@@ -77,9 +77,12 @@ impl RobotCard {
             *angle_rad = rule.default_rad.unwrap_or(*angle_rad).max(hinge.min_rad).min(hinge.max_rad);
             hinge.armature_kgm2 = rule.armature_kgm2.unwrap_or(hinge.armature_kgm2);
             if control.is_held {
-                (hinge.stiffness_nmprad, hinge.rest_rad) = (control.kp, *angle_rad);
                 hinge.damping_nmsprad += control.kd;
-                hinge.stiffness_powers = [0.0; 2];
+                // A hinge without a servo keeps its spring.
+                if control.kp > 0.0 {
+                    (hinge.stiffness_nmprad, hinge.rest_rad) = (control.kp, *angle_rad);
+                    hinge.stiffness_powers = [0.0; 2];
+                }
             } else {
                 motors.push(servo(index, hinge, *angle_rad, &control));
             }

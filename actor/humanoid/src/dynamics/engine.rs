@@ -11,8 +11,8 @@ use crate::lanes::{LANES_MAX, Simd, WithRegisters, with_registers};
 use crate::model::Solver;
 
 /// What a workspace depends on: the solver, and the numbers of bodies, degrees of freedom, entries of their paths,
-/// coordinates, shapes and links.
-type Sizes = (Solver, [usize; 6]);
+/// coordinates, connections, shapes and links.
+type Sizes = (Solver, [usize; 7]);
 
 /// Workspaces for all kinds of registers, widest first.
 type Engines = Vec<Box<dyn Engine>>;
@@ -58,6 +58,7 @@ fn each_pass(
         structure.dofs(),
         structure.path_entries(),
         structure.coordinates.len(),
+        structure.connections.len(),
         collision.shapes.len(),
         structure.link_bodies.len(),
     ];

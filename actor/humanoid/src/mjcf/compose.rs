@@ -8,6 +8,7 @@ mod names;
 
 use std::path::Path;
 
+use nalgebra::Vector3;
 use roxmltree::Document;
 
 use self::element_tree::Piece;
@@ -24,6 +25,8 @@ const REPLICAS_MAX: usize = 1024;
 /// Deepest chain of models attached to each other, and most attachments of models in all of them.
 const DEPTH_MAX: usize = 8;
 const ATTACHMENTS_MAX: usize = 256;
+/// Most `<replicate>` and `<attach>` of a text.
+const COPIES_MAX: usize = 1024;
 /// Sections whose elements name parts of the tree, in the order in which they may name each other.
 const SECTIONS: [&str; 4] = ["tendon", "contact", "equality", "actuator"];
 /// Settings of `<compiler>` that hold for a whole text, and their defaults.
@@ -66,6 +69,8 @@ struct Composition<'a> {
     attachments: &'a mut usize,
     /// Length of all copies so far (bytes).
     copied: u64,
+    /// Number of `<replicate>` and `<attach>` so far.
+    copies: usize,
     angles: Angles,
     /// Models that a part of has been attached, by prefix: their assets and classes are there.
     attached: Vec<(String, String)>,
@@ -80,6 +85,7 @@ impl Composition<'_> {
         let angles = Angles { are_degrees: compiler("angle").as_deref() != Some("radian"), sequence };
         let attaches_models = root.has_below(&|node: &Piece| node.tag == "attach" && node.get("model").is_some());
         if attaches_models {
+            root.check_defaults()?;
             root.isolate("treadmill_own");
         }
         let mut worlds = root.take_all("worldbody");
@@ -89,6 +95,7 @@ impl Composition<'_> {
             depth,
             attachments,
             copied: 0,
+            copies: 0,
             angles,
             attached: Vec::new(),
             worlds: worlds.clone(),
@@ -129,21 +136,22 @@ impl Composition<'_> {
         }
         self.expand(&mut replicate)?;
         let separator = element.text("sep");
-        let digits = (count - 1).to_string().len();
+        // As in MuJoCo, those of the count, not of the last number.
+        let digits = count.to_string().len();
         let change = |number: usize| Change::Suffix(format!("{separator}{number:0digits$}"));
         let length: u64 = replicate.children.iter().map(Piece::length).sum();
         self.check_size(count as u64 * length)?;
         let names = Names::within(&replicate.children);
-        let place = |(name, of): (&str, &str)| element.get(name).map(|value| (of.to_owned(), value.to_owned()));
-        let attributes = [("offset", "pos"), ("euler", "euler")].into_iter().filter_map(place).collect();
-        let step = self.angles.pose(&Element { attributes, ..element.clone() });
-        let mut pose = Pose::IDENTITY;
+        let (offset_m, angles) = (element.list_over("offset", [0.0; 3]), element.list_over("euler", [0.0; 3]));
+        let mut place_m = Vector3::zeros();
         for number in 0..count {
+            // As in MuJoCo, the angles grow, which is not the same turn again and again; each step is along the turned axes.
+            let pose = self.angles.turned_at(place_m, angles.map(|angle| number as f64 * angle));
+            place_m += pose.isometry().rotation * Vector3::from(offset_m);
             let mut frame = Piece::frame(&pose);
             frame.children.clone_from(&replicate.children);
             frame.children.iter_mut().for_each(|child| names.apply(child, &change(number)));
             parent.children.push(frame);
-            pose = pose.times(&step);
         }
         let changes: Vec<Change> = (0..count).map(change).collect();
         let copies = self.copies(names, &changes)?;
@@ -182,13 +190,14 @@ impl Composition<'_> {
         }
         let names = Names::within(&found);
         let copies = match &mut other {
-            Some(other) => copies(other, names, &[Change::None], false),
+            Some(other) => copies(other, names, &[Change::None], Kind::OfOther),
             None => {
                 let change = Change::Prefix(prefix);
                 found.iter_mut().for_each(|part| names.apply(part, &change));
-                copies(&mut self.root, names, &[change], false)
+                copies(&mut self.root, names, &[change], Kind::Beside)
             }
         };
+        self.count_copies()?;
         let all = copies.iter().flat_map(|(_, elements)| elements).chain(&found);
         self.check_size(all.map(Piece::length).sum())?;
         self.root.add_all(copies);
@@ -242,6 +251,7 @@ impl Composition<'_> {
                 return Err(attach.refused(problem));
             }
         }
+        other.check_defaults()?;
         other.rename_all(prefix);
         if !self.attached.iter().any(|(model, before)| model == name && before == prefix) {
             self.attached.push((name.to_owned(), prefix.to_owned()));
@@ -260,8 +270,19 @@ impl Composition<'_> {
         let sections = self.root.children.iter().filter(|section| SECTIONS.contains(&&*section.tag));
         let referring = sections.flat_map(|section| &section.children).filter(|element| names.are_in(element));
         let length: u64 = referring.map(Piece::length).sum();
-        files::check_length(changes.len() as u64 * length)?;
-        Ok(copies(&mut self.root, names, changes, true))
+        self.check_size(changes.len() as u64 * length)?;
+        self.count_copies()?;
+        Ok(copies(&mut self.root, names, changes, Kind::Replaced))
+    }
+
+    /// Counts a `<replicate>` or `<attach>`; refuses more than can be written out in a moment.
+    fn count_copies(&mut self) -> Result<(), ModelError> {
+        self.copies += 1;
+        if self.copies > COPIES_MAX {
+            let problem = format!("there are more than {COPIES_MAX} <replicate> and <attach>");
+            return Err(ModelError::unsupported("worldbody", problem));
+        }
+        Ok(())
     }
 
     /// Notes the length of what is copied; refuses texts that would become too long, before they do.
@@ -271,9 +292,20 @@ impl Composition<'_> {
     }
 }
 
-/// Returns, by section, copies of the elements of a text that name one of these parts; the elements themselves go if
-/// `replaces`.
-fn copies(root: &mut Piece, mut names: Names, changes: &[Change], replaces: bool) -> Vec<(&'static str, Vec<Piece>)> {
+/// What becomes of the elements outside of the tree that name a copied part.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// The copies take their place.
+    Replaced,
+    /// The copies are beside them.
+    Beside,
+    /// They are those of another model, of which only the part is here.
+    OfOther,
+}
+
+/// Returns, by section, copies of the elements of a text that name one of these parts. As in MuJoCo, equalities that also
+/// name another part have no copies, and elements of another model neither.
+fn copies(root: &mut Piece, mut names: Names, changes: &[Change], kind: Kind) -> Vec<(&'static str, Vec<Piece>)> {
     let mut found = Vec::new();
     for tag in SECTIONS {
         let mut originals = Vec::new();
@@ -281,10 +313,11 @@ fn copies(root: &mut Piece, mut names: Names, changes: &[Change], replaces: bool
             let (referring, others): (Vec<Piece>, Vec<Piece>) =
                 std::mem::take(&mut section.children).into_iter().partition(|element| names.are_in(element));
             section.children = others;
-            if !replaces {
+            if kind != Kind::Replaced {
                 section.children.extend(referring.iter().cloned());
             }
-            originals.extend(referring);
+            let must_be_whole = tag == "equality" || kind == Kind::OfOther;
+            originals.extend(referring.into_iter().filter(|element| !must_be_whole || names.have_all_of(element)));
         }
         // A tendon's name is one of the names that change.
         names.add(tag, &originals);
@@ -306,6 +339,7 @@ fn with_whole_paths(document: &Document<'_>, folder: &Path) -> Result<String, Mo
     let (mut whole, mut done) = (String::new(), 0);
     for (node, asset) in &found.assets {
         let Some((path, file)) = found.path_of(asset).zip(node.attribute_node("file")) else { continue };
+        let path = std::path::absolute(&path).unwrap_or(path);
         whole.push_str(&text[done..file.range_value().start]);
         xml::escape(&mut whole, &path.to_string_lossy());
         done = file.range_value().end;

@@ -139,7 +139,9 @@ impl<'a> AssetFiles<'a> {
     /// Returns the path of an asset's file.
     pub(super) fn path_of(&self, asset: &Element) -> Option<PathBuf> {
         let given = Path::new(asset.get("file").filter(|file| !file.is_empty())?);
-        Some(self.folder.join(given.file_name().filter(|_| self.are_paths_stripped).map_or(given, Path::new)))
+        // The files of attached models have whole paths.
+        let is_stripped = self.are_paths_stripped && given.is_relative();
+        Some(self.folder.join(given.file_name().filter(|_| is_stripped).map_or(given, Path::new)))
     }
 }
 
@@ -226,7 +228,6 @@ fn corner(word: &str, vertices: usize) -> Option<usize> {
     Some(index).filter(|index| *index < vertices)
 }
 
-/// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).
 /// Returns what kind of mesh file MuJoCo does not read, if it is one.
 pub(super) fn unknown_to_mujoco(path: &Path) -> Result<Option<&'static str>, ModelError> {
     Ok(match () {
@@ -236,6 +237,7 @@ pub(super) fn unknown_to_mujoco(path: &Path) -> Result<Option<&'static str>, Mod
     })
 }
 
+/// Returns whether a file is as long as the number of triangles after its header says (50 bytes each).
 fn is_binary_stl(bytes: &[u8]) -> bool {
     let count = bytes.get(STL_HEADER..).and_then(|rest| rest.first_chunk::<4>()).copied().map(u32::from_le_bytes);
     count.is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + 4 + 50 * u64::from(count))

@@ -109,7 +109,8 @@ pub(super) fn resolve_spring_dampers<'a>(joints: impl Iterator<Item = &'a Elemen
         let inertia_kgm2 = 1.0 / responses[hinge];
         let of_hinge = &mut model.hinges[hinge];
         of_hinge.stiffness_nmprad = inertia_kgm2 / (time_s * ratio).powi(2);
-        of_hinge.damping_nmsprad = 2.0 * inertia_kgm2 / time_s;
+        // That of actuators stays.
+        of_hinge.damping_nmsprad += 2.0 * inertia_kgm2 / time_s - joint.number("damping").unwrap_or(0.0);
     }
 }
 

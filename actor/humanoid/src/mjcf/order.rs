@@ -68,7 +68,9 @@ fn key<'a>(node: &Node<'a, '_>) -> Option<(&'static str, &'a str)> {
     match node.tag_name().name() {
         _ if is_motor => Some(("motor", node.attribute("name").or_else(|| node.attribute("joint"))?)),
         "body" => Some(("body", node.attribute("name")?)),
-        "joint" => Some(("joint", node.attribute("name")?)),
+        "joint" if !node.parent().is_some_and(|parent| parent.has_tag_name("equality")) => {
+            Some(("joint", node.attribute("name")?))
+        }
         _ => None,
     }
 }

@@ -52,6 +52,11 @@ impl Angles {
         of_z_axis(element.list_over("zaxis", [0.0; 3]).into())
     }
 
+    /// Returns the pose at a place (m) with these Euler angles, which are in the unit of the text.
+    pub(super) fn turned_at(&self, place_m: Vector3<f64>, angles: [f64; 3]) -> Pose {
+        Pose { place_m, turn: self.of_euler(angles.map(|angle| self.radians(angle))) }
+    }
+
     fn of_euler(&self, angles: [f64; 3]) -> Quaternion<f64> {
         let turned = self.sequence.chars().zip(angles).fold(Quaternion::identity(), |turned, (letter, angle)| {
             let axis = match letter.to_ascii_lowercase() {

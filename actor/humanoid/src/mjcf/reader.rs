@@ -72,7 +72,7 @@ struct Reader<'a> {
     /// Where the root is at the position 0 of the text (m).
     root_place_m: Vector3<f64>,
     floor: Option<Floor>,
-    /// EqualityReader of each rigid body's mass.
+    /// Parts of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
     /// Contact parameters and MJCF body of each shape, as `[body][shape]`.
     rules: Vec<Vec<(ContactRules, usize)>>,

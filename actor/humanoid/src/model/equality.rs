@@ -59,11 +59,21 @@ impl Model {
         self.couplings.iter().find_map(follows).or_else(|| self.connections.iter().find_map(loops))
     }
 
-    /// Gives each hinge that follows another one the angle that its equality asks for.
+    /// Gives each hinge that follows another one the angle that its equality asks for; of two, the one without a motor
+    /// follows.
     pub(crate) fn apply_couplings(&self, position: &mut [f64]) {
-        for coupling in &self.couplings {
-            let of_other = coupling.follows.map_or(0.0, |(other, ratio)| ratio * position[7 + other]);
-            position[7 + coupling.hinge] = coupling.offset_rad + of_other;
+        let has_motor = |hinge: usize| self.motors.iter().any(|motor| motor.hinge == hinge);
+        // Hinges may follow in a chain, in any order.
+        for coupling in self.couplings.iter().flat_map(|_| &self.couplings) {
+            match coupling.follows {
+                Some((other, ratio)) if has_motor(coupling.hinge) && !has_motor(other) && ratio != 0.0 => {
+                    position[7 + other] = (position[7 + coupling.hinge] - coupling.offset_rad) / ratio;
+                }
+                follows => {
+                    let of_other = follows.map_or(0.0, |(other, ratio)| ratio * position[7 + other]);
+                    position[7 + coupling.hinge] = coupling.offset_rad + of_other;
+                }
+            }
         }
     }
 }

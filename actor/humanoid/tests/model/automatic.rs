@@ -382,6 +382,13 @@ fn hinges_that_follow_others_have_no_servo() {
     for _ in 0..40 {
         physics.step_only(&controls).expect("finite");
     }
+    let sprung = changed(
+        &upright(),
+        "<joint name='right_shoulder'",
+        "<joint name='right_shoulder' stiffness='7' springref='0.1'",
+    );
+    let (sprung, _) = found(&changed(&sprung, "</mujoco>", mimic));
+    assert_eq!((sprung.hinges[right].stiffness_nmprad, sprung.hinges[right].rest_rad), (7.0, 0.1), "its spring stays");
     let [left, right] = ["left_shoulder", "right_shoulder"]
         .map(|name| physics.joint_angles()[model.hinges.iter().position(|hinge| hinge.name == name).expect("a hinge")]);
     assert!((right - (0.2 - left)).abs() < 0.01, "{left} {right}");

@@ -141,3 +141,27 @@ fn what_cannot_be_composed_is_refused_by_name() {
     let message = folder(&huge, HAND).read("robot.xml").expect_err("too large");
     assert!(message.contains("4194304"), "{message}");
 }
+
+#[test]
+fn attached_files_are_found_from_a_relative_path() {
+    let folder = folder(PARENT, HAND);
+    // Cargo runs tests in the package's folder: the way from there to the temporary one.
+    let here = std::env::current_dir().expect("a folder");
+    let up: std::path::PathBuf = here.components().skip(1).map(|_| "..").collect();
+    let relative = up.join(folder.0.strip_prefix("/").expect("an absolute folder")).join("robot.xml");
+    assert!(relative.is_relative());
+    let text =
+        treadmill_humanoid::read_model_file(&relative, &treadmill_humanoid::ModelFiles::default()).expect("readable");
+    assert_eq!(Model::from_mjcf(&text).expect("valid").links.len(), 9);
+}
+
+#[test]
+fn replicas_turn_and_are_named_as_in_mujoco() {
+    let fins = "<replicate count='10' offset='.1 .2 .3' euler='10 20 30'><body name='b' pos='1 0 0'><joint/><geom/></body></replicate>";
+    let text = changed(PARENT, "<body name='arm'", &format!("{fins}<body name='arm'"));
+    let model = Model::from_mjcf(&folder(&text, HAND).read("robot.xml").expect("readable")).expect("valid");
+    let body = model.bodies.iter().find(|body| body.name == "b02").expect("two digits for ten");
+    // MuJoCo 4.0's `body_pos`: the second copy has turned by twice the angles.
+    let wanted = Point3::new(0.573_039, 1.293_786, 0.615_083);
+    assert!((body.pose.translation.vector - wanted.coords).norm() < 2e-6, "{}", body.pose.translation.vector);
+}

@@ -66,6 +66,24 @@ fn a_loop_does_not_move_the_robot_as_a_whole() {
 }
 
 #[test]
+fn a_loop_holds_after_the_same_robot_without_it() {
+    let rod = r#"<connect body1="hand" body2="left" anchor="0 0.4 0"/>"#;
+    let settings = EnvConfig { self_collision: false, ..EnvConfig::default() };
+    for solver in SOLVERS {
+        let moved = |robot: &mut Physics| {
+            advance(robot, 10, &[1.0, 0.5]);
+            robot.position().to_vec()
+        };
+        // A thread that has simulated nothing else, and one that has workspaces of as many bodies and hinges.
+        let wanted = std::thread::scope(|scope| {
+            scope.spawn(|| moved(&mut arms(solver, rod, &settings))).join().expect("no panic")
+        });
+        moved(&mut arms(solver, "", &settings));
+        assert_eq!(moved(&mut arms(solver, rod, &settings)), wanted, "{solver}");
+    }
+}
+
+#[test]
 fn a_hinge_follows_another_in_proportion() {
     let mimic = r#"<joint joint1="b" joint2="a" polycoef="0.1 -0.5"/>"#;
     for solver in SOLVERS {

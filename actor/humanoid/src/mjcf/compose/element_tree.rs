@@ -6,6 +6,7 @@ use super::super::element::{Attribute, Element};
 use super::super::notices;
 use super::super::pose::Pose;
 use super::super::xml;
+use crate::error::ModelError;
 
 /// Element with its content; text and comments are left out.
 #[derive(Clone, Debug, Default)]
@@ -85,6 +86,19 @@ impl Piece {
         })
     }
 
+    /// Refuses several outermost `<default>`s, which would have to become one: classes of the first inherit nothing from the
+    /// second.
+    pub(super) fn check_defaults(&self) -> Result<(), ModelError> {
+        let count = self.children.iter().filter(|section| section.tag == "default").count();
+        let own = self.children.iter().filter(|section| section.tag == "default" && section.get("class").is_none());
+        if count > 1 && own.flat_map(|section| &section.children).any(|child| child.tag != "default") {
+            let problem =
+                "a text with attached models, or one that is attached, may have one outermost <default>; join them";
+            return Err(ModelError::unsupported("default", problem));
+        }
+        Ok(())
+    }
+
     /// Gives the defaults of the text a class of their own, so that those of an attached model inherit nothing from them.
     /// Returns whether there are any.
     pub(super) fn isolate(&mut self, class: &str) -> bool {
@@ -100,8 +114,22 @@ impl Piece {
         true
     }
 
+    /// Replaces the class `main`, where an element names it.
+    fn replace_main(&mut self, class: &str) {
+        for (name, value) in &mut self.attributes {
+            if ["class", "childclass"].contains(&&**name) && value == "main" {
+                class.clone_into(value);
+            }
+        }
+        self.children.iter_mut().for_each(|child| child.replace_main(class));
+    }
+
     /// Lets all elements without a class have this one.
     fn use_class(&mut self, class: &str) {
+        self.children
+            .iter_mut()
+            .filter(|section| section.tag != "default")
+            .for_each(|section| section.replace_main(class));
         for section in &mut self.children {
             match section.tag.as_str() {
                 "worldbody" => {

@@ -87,6 +87,15 @@ impl Names {
             || element.children.iter().any(|child| self.are_in(child))
     }
 
+    /// Returns whether all parts that an element, or one in it, refers to are among these; the world is always there.
+    pub(super) fn have_all_of(&self, element: &Piece) -> bool {
+        let is_here = |(attribute, name): &(String, String)| match kind_of(attribute) {
+            Some("joint" | "body" | "geom" | "site" | "tendon") => name == "world" || self.has(attribute, name),
+            _ => true,
+        };
+        element.attributes.iter().all(is_here) && element.children.iter().all(|child| self.have_all_of(child))
+    }
+
     /// Changes the names of an element and of all in it, and what refers to the parts.
     pub(super) fn apply(&self, element: &mut Piece, change: &Change) {
         for (attribute, value) in &mut element.attributes {
