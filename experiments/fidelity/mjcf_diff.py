@@ -7,8 +7,7 @@ Usage: mjcf_diff.py target/release/treadmill CASES... [--only TEXT] [--verbose] 
        mjcf_diff.py target/release/treadmill --features --random 200 [--seed 1] [--keep FOLDER]
 
 CASES are MJCF files or folders of them; names that begin with `_` are parts of others. `--features` adds files with one feature
-each, `--random` so many random robots (both by mjcf_cases.py), of which at most a twentieth may be refused. `--keep` writes them into a
-folder.
+each, `--random` so many random robots, of which at most a twentieth may be refused. `--keep` writes them into a folder.
 
 A file may say what is wanted in its first comment, one key per line:
 
@@ -36,7 +35,7 @@ import tempfile
 import mujoco
 import numpy as np
 
-from experiments.fidelity import mjcf_cases
+from experiments.fidelity import mjcf_cases, mjcf_robots
 
 CONTROL_STEP_S = 0.002
 # Ordinary ones, and those of a second try: an error of the integrator at a hard impact shrinks with its step, a wrong model does not.
@@ -279,7 +278,7 @@ def is_as_wanted(result: str, details: list[str], wish: dict[str, str]) -> bool:
 def write_cases(folder: pathlib.Path, arguments: argparse.Namespace) -> list[pathlib.Path]:
     """Writes the generated cases into a folder, and returns their paths."""
     cases = dict(mjcf_cases.features()) if arguments.features else {}
-    cases |= {f"random_{index:04}": mjcf_cases.robot(arguments.seed, index) for index in range(arguments.random)}
+    cases |= {f"random_{index:04}": mjcf_robots.robot(arguments.seed, index) for index in range(arguments.random)}
     names = sorted(cases)
     for name, text in mjcf_cases.parts().items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -50,6 +50,12 @@ fn assert_line(heading: &str, running: &Running, part: &str, replaced: &[(&str, 
     assert_quoted(heading, &with(&running.wait_for(part), replaced));
 }
 
+/// Compares the log of a rejected connection, without its peer, which not every system knows.
+fn assert_rejection(heading: &str, learner: &Running, part: &str, replaced: &[(&str, &str)]) {
+    let line = with(&learner.wait_for(part), replaced);
+    assert_quoted(heading, line.split(" peer=").next().unwrap());
+}
+
 /// Replaces parts that differ in each run with those that the page quotes.
 fn with(line: &str, replaced: &[(&str, &str)]) -> String {
     replaced.iter().fold(line.to_string(), |line, (part, quoted)| line.replace(part, quoted))
@@ -222,12 +228,12 @@ fn clients_without_the_right_certificate_are_refused() {
     let learner = start(folder, &[&["learner", "--preset", "smoke", "--run-dir", "run"][..], &listen].concat());
     let endpoint = endpoint(&run);
     let stranger = start(folder, &["actor", "--tls", "others", "--connect", &endpoint]);
-    assert_line("A certificate of another authority", &learner, "connection rejected", &[]);
+    assert_rejection("A certificate of another authority", &learner, "connection rejected", &[]);
     drop(stranger);
     let _plain = start(folder, &["actor", "--connect", &endpoint.replace("tls/", "tcp/")]);
     // Plain text begins with its length, which a short ID of the session makes the number of a handshake.
     let short_id = [("UnknownProtocolVersion", "InvalidContentType")];
-    assert_line("Plain text where TLS is spoken", &learner, "does not speak TLS", &short_id);
+    assert_rejection("Plain text where TLS is spoken", &learner, "does not speak TLS", &short_id);
 
     // An observer's certificate under an operator's file names.
     fs::create_dir(folder.join("theirs")).unwrap();

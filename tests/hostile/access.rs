@@ -159,7 +159,10 @@ fn clients_without_a_valid_certificate_are_refused_and_logged() {
     let address = fleet.endpoint.split_once('/').unwrap().1;
     let mut plain = TcpStream::connect(address).unwrap();
     std::io::Write::write_all(&mut plain, &[0; 64]).unwrap();
-    fleet.learner.wait_for("connection rejected");
+    let line = fleet.learner.wait_for("connection rejected");
+    if cfg!(target_os = "linux") {
+        assert!(line.ends_with(&format!("peer={}", plain.local_addr().unwrap())), "{line}");
+    }
     let without_tls = fleet.endpoint.replace("tls/", "tcp/");
     assert!(Attacker::join(&without_tls, "run", None, SILENCE).is_none(), "plain tcp is refused");
 

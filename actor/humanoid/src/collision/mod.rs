@@ -1,13 +1,16 @@
 //! What touches: places of contact between shapes, and between shapes and the ground.
 //!
 //! The pairs that can touch at all are known from the model. In every step, cheap tests for several worlds at once leave few
-//! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in
-//! closed form. Everything else is a contact query of Rapier's collision detection (see `queries`).
+//! of them: spheres and capsules that contain the shapes. Spheres and capsules over a plane are solved in closed form.
+//! Everything else is a contact query of Rapier's collision detection (see `queries`).
 
+mod bounds;
 mod convert;
 mod field;
 mod model;
 mod queries;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::Vector3;
 
@@ -48,7 +51,7 @@ pub(crate) struct Root<'a, S: Simd> {
 pub(crate) struct Collisions<S: Simd> {
     /// In the order of pairs and points, so that the constraint solve always takes them in the same order.
     pub(crate) contacts: Vec<Contact<S>>,
-    /// Centre of each shape, and half of the axis of capsules (m, relative to O).
+    /// Centre of each shape, and half of its capsule's axis (m, relative to O).
     centres_m: Vec<Vec3<S>>,
     halves_m: Vec<Vec3<S>>,
     queries: Queries,
@@ -118,11 +121,13 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
-    /// Returns where a shape's bounding sphere reaches below the highest point of the ground near it.
+    /// Returns where a shape's sphere and capsule reach below the highest point of the ground near it.
     #[inline(always)]
     fn is_low(&self, model: &CollisionModel, pair: &PairNode, root: &Root<'_, S>) -> Mask<S> {
-        let (centre, radius_m) = (self.centres_m[pair.first], model.shapes[pair.first].radius_m);
-        let lowest = root.height_m + centre.z - radius_m;
+        let shape = &model.shapes[pair.first];
+        let (centre, radius_m) = (self.centres_m[pair.first], shape.radius_m);
+        let reach = (self.halves_m[pair.first].z.abs() + shape.thickness_m).min(centre.z.constant(radius_m));
+        let lowest = root.height_m + centre.z - reach;
         let mut highest = lowest.constant(pair.margin_m);
         if let Some(field) = &model.height_field {
             let (x, y) = (root.moved_m.x + centre.x, root.moved_m.y + centre.y);
@@ -134,14 +139,14 @@ impl<S: Simd> Collisions<S> {
         lowest.less_than(highest)
     }
 
-    /// Returns where two shapes may touch: by their bounding spheres, then by their axes if both are round.
+    /// Returns where two shapes may touch: by their spheres, then by their capsules.
     #[inline(always)]
     fn is_near(&self, model: &CollisionModel, pair: &PairNode, second: usize) -> Mask<S> {
         let first = pair.first;
         let offset = self.centres_m[first] - self.centres_m[second];
         let reach_m = model.shapes[first].radius_m + model.shapes[second].radius_m + pair.margin_m;
         let near = offset.dot(&offset).less_than(offset.x.constant(reach_m * reach_m));
-        if !(near.any() && model.shapes[first].is_round && model.shapes[second].is_round) {
+        if !near.any() {
             return near;
         }
         let squared = squared_distance(&offset, &self.halves_m[first], &self.halves_m[second]);

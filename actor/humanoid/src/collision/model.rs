@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::math::{Pose, Rotation};
 use rapier3d::parry::shape::SharedShape;
 
+use super::bounds::Capsule;
 use super::convert::{to_rotation, to_vector};
 use super::field::FieldShape;
 use crate::articulation::Structure;
@@ -29,15 +30,15 @@ pub(crate) struct CollisionModel {
 pub(crate) struct ShapeNode {
     pub(crate) body: usize,
     pub(crate) link: Option<usize>,
-    /// Centre in the body's frame (m).
+    /// Centre of its sphere and capsule, in the body's frame (m).
     pub(super) centre_m: Vector3<f64>,
     /// Radius of the sphere around the centre that contains the shape (m).
     pub(super) radius_m: f64,
-    /// Half of the axis of a capsule, in the body's frame (m).
+    /// Half of the axis of the capsule that contains the shape, in the body's frame (m); none of a sphere.
     pub(super) half_m: Option<Vector3<f64>>,
-    /// Radius of a sphere or capsule (m).
+    /// Radius of the capsule (m).
     pub(super) thickness_m: f64,
-    /// Whether it is a sphere or a capsule.
+    /// Whether the shape is its capsule or sphere.
     pub(super) is_round: bool,
     /// Rapier's shape, and its pose in the body.
     pub(super) shape: SharedShape,
@@ -124,7 +125,7 @@ impl CollisionModel {
 }
 
 impl ShapeNode {
-    fn new(body: usize, link: Option<usize>, geometry: &Geometry) -> Self {
+    pub(super) fn new(body: usize, link: Option<usize>, geometry: &Geometry) -> Self {
         let centre_m = geometry.centre_m().coords;
         let mut node = Self {
             body,
@@ -153,27 +154,49 @@ impl ShapeNode {
                 let upright = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
                 node.shape = SharedShape::cylinder(*half_length_m as f32, *radius_m as f32);
                 node.offset = to_pose(&(pose * upright));
+                let axis_m = pose.rotation * Vector3::z() * *half_length_m;
+                node.contain(Capsule { centre_m, half_m: axis_m, radius_m: *radius_m });
                 node.radius_m = radius_m.hypot(*half_length_m);
             }
             Geometry::Box { pose, half_m } => {
                 node.shape = SharedShape::cuboid(half_m.x as f32, half_m.y as f32, half_m.z as f32);
                 node.offset = to_pose(pose);
-                node.radius_m = half_m.norm();
+                let corners: Vec<_> = [-1.0, 1.0]
+                    .iter()
+                    .flat_map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vector3::new(*x, y, z))))
+                    .flatten()
+                    .map(|corner| pose.rotation * corner.component_mul(half_m) + centre_m)
+                    .collect();
+                node.surround(&corners, pose);
             }
             Geometry::Hull { vertices_m } => {
                 let points: Vec<_> = vertices_m.iter().map(|vertex| to_vector(&(vertex.coords - centre_m))).collect();
                 // The model refuses flat hulls.
                 node.shape = SharedShape::convex_hull(&points).unwrap_or(node.shape);
-                node.radius_m = vertices_m.iter().map(|vertex| (vertex.coords - centre_m).norm()).fold(0.0, f64::max);
+                let corners: Vec<_> = vertices_m.iter().map(|vertex| vertex.coords).collect();
+                node.surround(&corners, &Isometry3::identity());
             }
             Geometry::Ellipsoid { pose, half_m } => {
-                let points: Vec<_> = ball_points().map(|point| to_vector(&point.component_mul(half_m))).collect();
-                node.shape = SharedShape::convex_hull(&points).unwrap_or(node.shape);
+                let points: Vec<_> = ball_points().map(|point| point.component_mul(half_m)).collect();
+                let rounded: Vec<_> = points.iter().map(to_vector).collect();
+                node.shape = SharedShape::convex_hull(&rounded).unwrap_or(node.shape);
                 node.offset = to_pose(pose);
-                node.radius_m = half_m.max() * BALL_RADIUS;
+                let corners: Vec<_> = points.iter().map(|point| pose.rotation * point + centre_m).collect();
+                node.surround(&corners, pose);
             }
         }
         node
+    }
+
+    /// Sets sphere and capsule for a shape with these corners in the body's frame (m) and this pose.
+    fn surround(&mut self, corners_m: &[Vector3<f64>], pose: &Isometry3<f64>) {
+        self.contain(Capsule::around(corners_m, pose.rotation.to_rotation_matrix().matrix()));
+        self.radius_m = corners_m.iter().map(|corner| (corner - self.centre_m).norm()).fold(0.0, f64::max);
+    }
+
+    fn contain(&mut self, capsule: Capsule) {
+        self.centre_m = capsule.centre_m;
+        (self.half_m, self.thickness_m) = (Some(capsule.half_m), capsule.radius_m);
     }
 }
 

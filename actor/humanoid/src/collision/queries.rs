@@ -240,3 +240,16 @@ fn forget(manifold: &mut ContactManifold<(), ()>) {
     manifold.clear();
     (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
 }
+
+/// Returns how deep the second shape at a place is in the first one (m); none if they do not touch.
+#[cfg(test)]
+pub(super) fn overlap_m(
+    one: &super::model::ShapeNode,
+    other: &super::model::ShapeNode,
+    place: &nalgebra::Isometry3<f64>,
+) -> Option<f64> {
+    let pose = to_pose(place.rotation.to_rotation_matrix().matrix(), &place.translation.vector) * other.offset;
+    let mut points = Points { candidates: Vec::new(), margin_m: 0.0 };
+    Queries::default().collect(&one.offset, &*one.shape, &pose, &*other.shape, 0.0, &mut points);
+    points.candidates.iter().map(|point| -point.gap_m).reduce(f64::max)
+}

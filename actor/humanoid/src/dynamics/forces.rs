@@ -112,9 +112,8 @@ impl<S: Simd> Forces<S> {
                 hinge.passive_nm -= (cube * speed + square) * speed * rate;
                 self.diagonal[dof] += (cube * speed * 1.5 + square) * speed * step_s;
             }
-            if let [square, cube] = node.stiffness_powers
-                && node.stiffness_powers != [0.0; 2]
-            {
+            let [square, cube] = node.stiffness_powers;
+            if [square, cube] != [0.0; 2] {
                 let deflection = angle - node.rest_rad;
                 hinge.passive_nm -= (deflection * cube + square) * deflection * deflection;
                 let slope = (deflection * (3.0 * cube) + 2.0 * square) * deflection;

@@ -245,7 +245,8 @@ impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.with(self.simd.neg_f32s(self.numbers))
+        // `neg_f32s` is a provided method, which compilers do not inline into code for wider registers.
+        self.with(self.simd.xor_f32s(self.numbers, self.simd.splat_f32s(-0.0)))
     }
 }
 

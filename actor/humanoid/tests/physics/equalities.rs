@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use treadmill_humanoid::{EnvConfig, Physics};
 
-use crate::{CONTROL_STEP_S, advance, with_settings, with_substeps};
+use crate::{CONTROL_STEP_S, advance, hinge, with_settings, with_substeps};
 
 /// A base with two arms whose ends, 0.4 m apart at first, `equality` may join; `solver` is MuJoCo's.
 fn arms(solver: &str, equality: &str, settings: &EnvConfig) -> Physics {
@@ -107,12 +107,12 @@ fn what_is_held_up_does_not_fall() {
     let text = |share: f64| {
         format!(
             r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 3" gravcomp="{share}"><freejoint/>
-               <geom size="0.1"/><body gravcomp="{share}" pos="0.3 0 0"><joint axis="0 1 0"/><geom size="0.1" pos="0.2 0 0"/>
-               </body></body></worldbody><actuator><motor joint="joint 1 of body 2"/></actuator></mujoco>"#
+               <geom size="0.1"/><body gravcomp="{share}" pos="0.3 0 0"><joint name="j" axis="0 1 0"/><geom size="0.1" pos="0.2 0 0"/>
+               </body></body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
         )
     };
     for (share, acceleration) in [(1.0, 0.0), (0.5, -4.905), (2.0, 9.81)] {
-        let mut body = with_substeps(&text(share).replace("<joint ", "<joint name=\"joint 1 of body 2\" "), 4);
+        let mut body = with_substeps(&text(share), 4);
         advance(&mut body, 20, &[0.0]);
         let wanted = acceleration * 20.0 * CONTROL_STEP_S;
         let found = body.centre_of_mass_velocity();
@@ -122,25 +122,11 @@ fn what_is_held_up_does_not_fall() {
     }
 }
 
-/// Two bodies without gravity on one hinge about y with the given attributes; their inertias as felt by it are `INERTIA`.
-fn pair(joint: &str, substeps: u32) -> Physics {
-    let text = format!(
-        r#"<mujoco><compiler angle="radian"/><option gravity="0 0 0"/>
-           <worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 5"><freejoint/>
-           <inertial pos="0 0 0" mass="2" diaginertia="0.3 0.3 0.3"/>
-           <body><joint name="j" axis="0 1 0" {joint}/><inertial pos="0 0 0" mass="1" diaginertia="0.02 0.02 0.02"/></body>
-           </body></worldbody><actuator><motor joint="j" ctrlrange="-10 10"/></actuator></mujoco>"#
-    );
-    with_substeps(&text, substeps)
-}
-
-const INERTIA_KGM2: f64 = 0.3 * 0.02 / 0.32;
-
 /// Angle and rate after a time, by the fourth-order Runge-Kutta method.
 fn integrated(mut state: [f64; 2], time_s: f64, torque_nm: impl Fn(f64, f64) -> f64) -> [f64; 2] {
     let steps = 20_000;
     let step_s = time_s / f64::from(steps);
-    let slope = |[angle, rate]: [f64; 2]| [rate, torque_nm(angle, rate) / INERTIA_KGM2];
+    let slope = |[angle, rate]: [f64; 2]| [rate, torque_nm(angle, rate) / hinge::REDUCED_KGM2];
     let after = |[angle, rate]: [f64; 2], [turn, change]: [f64; 2], part: f64| {
         [angle + turn * part * step_s, rate + change * part * step_s]
     };
@@ -157,17 +143,16 @@ fn integrated(mut state: [f64; 2], time_s: f64, torque_nm: impl Fn(f64, f64) -> 
 
 #[test]
 fn friction_and_springs_may_have_squares_and_cubes() {
-    let joint = r#"damping="0.05 0.1 0.02" stiffness="2 1.5 3" springref="0.1""#;
+    // The spring rests at 0.1 rad.
+    let joint = r#"damping="0.05 0.1 0.02" stiffness="2 1.5 3" springref="5.729577951308232""#;
     let torque = |angle: f64, rate: f64| {
         let bent = angle - 0.1;
         -(0.05 * rate + 0.1 * rate * rate.abs() + 0.02 * rate.powi(3))
             - (2.0 * bent + 1.5 * bent * bent + 3.0 * bent.powi(3))
     };
     let errors = [4, 8].map(|substeps| {
-        let mut body = pair(joint, substeps);
-        let mut position = body.model().nominal_position();
-        position[7] = 0.8;
-        body.set_state(&position, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -3.0]);
+        let mut body = hinge::pair(joint, substeps);
+        hinge::start(&mut body, 0.8, -3.0);
         let mut worst = 0.0f64;
         for step in 1..=40 {
             advance(&mut body, 1, &[0.0]);
@@ -193,9 +178,7 @@ fn both_limits_of_a_narrow_range_push() {
             )
         };
         let mut body = with_substeps(&text(joint), 4);
-        let mut position = body.model().nominal_position();
-        position[7] = 0.03;
-        body.set_state(&position, &[0.0; 7]);
+        hinge::start(&mut body, 0.03, 0.0);
         advance(&mut body, 100, &[0.0]);
         // It rests in the middle instead of shaking between the two.
         let (angle, rate) = (body.joint_angles()[0], body.joint_rates()[0]);

@@ -7,10 +7,10 @@ use crate::{CONTROL_STEP_S, advance, with_substeps};
 const ROOT_INERTIA_KGM2: f64 = 0.3;
 const LINK_INERTIA_KGM2: f64 = 0.02;
 /// Effective inertia of two bodies that turn about one axis through both centres of mass: 1 / Σ 1/inertia.
-const REDUCED_KGM2: f64 = ROOT_INERTIA_KGM2 * LINK_INERTIA_KGM2 / (ROOT_INERTIA_KGM2 + LINK_INERTIA_KGM2);
+pub(crate) const REDUCED_KGM2: f64 = ROOT_INERTIA_KGM2 * LINK_INERTIA_KGM2 / (ROOT_INERTIA_KGM2 + LINK_INERTIA_KGM2);
 
 /// Two bodies without gravity on one hinge about y with the given attributes, and a motor of 1 N·m per unit of control.
-fn pair(joint: &str, substeps: u32) -> Physics {
+pub(crate) fn pair(joint: &str, substeps: u32) -> Physics {
     let text = format!(
         r#"<mujoco><compiler angle="degree"/><option gravity="0 0 0"/>
            <worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 5"><freejoint/>
@@ -21,7 +21,7 @@ fn pair(joint: &str, substeps: u32) -> Physics {
     with_substeps(&text, substeps)
 }
 
-fn start(body: &mut Physics, angle_rad: f64, rate_radps: f64) {
+pub(crate) fn start(body: &mut Physics, angle_rad: f64, rate_radps: f64) {
     let mut position = body.model().nominal_position();
     position[7] = angle_rad;
     body.set_state(&position, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, rate_radps]);

@@ -6,6 +6,7 @@
 //! malformed fragments under a good actor's name quarantine only their own sender. All unproven senders together share one
 //! part of the queue and one rate, however many names they use.
 
+pub(crate) mod closed_peers;
 pub mod rate_limited_log;
 pub mod tls_rejections;
 

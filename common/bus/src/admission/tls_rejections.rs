@@ -5,7 +5,7 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use tracing::{Event, Level, Subscriber, field::Visit};
 use tracing_subscriber::{Layer, filter::filter_fn, layer::Context, registry::LookupSpan};
 
-use super::rate_limited_log::RateLimitedLog;
+use super::{closed_peers, rate_limited_log::RateLimitedLog};
 
 /// Target under which Zenoh logs encrypted connections.
 const TARGET: &str = "zenoh_link_tls";
@@ -19,7 +19,12 @@ pub fn log_tls_rejections<S: Subscriber + for<'a> LookupSpan<'a>>() -> impl Laye
     std::thread::spawn(move || {
         let log = RateLimitedLog::default();
         for error in errors {
-            log.emit(|| tracing::warn!(reason = likely_cause(&error), %error, "connection rejected"));
+            let peers: Vec<String> = closed_peers::just_closed().iter().map(ToString::to_string).collect();
+            let reason = likely_cause(&error);
+            log.emit(|| match peers.is_empty() {
+                true => tracing::warn!(reason, %error, "connection rejected"),
+                false => tracing::warn!(reason, %error, peer = %peers.join(" or "), "connection rejected"),
+            });
         }
     });
     let tls_warnings = filter_fn(|metadata| metadata.target().starts_with(TARGET) && *metadata.level() <= Level::WARN);

@@ -8,6 +8,7 @@
 pub(crate) mod access_rules;
 pub mod endpoint;
 mod links;
+mod listening;
 
 use std::path::PathBuf;
 
@@ -15,10 +16,9 @@ use serde_json::json;
 use zenoh::{Config, Session, Wait};
 
 use crate::{
+    admission::closed_peers,
     error::{BusError, in_words},
-    workarounds::{
-        close, discovery, free_port::with_free_port, linger, open_files::check_open_files, redial_pause, threads,
-    },
+    workarounds::{close, discovery, linger, open_files::check_open_files, redial_pause, threads},
 };
 use access_rules::Credentials;
 
@@ -103,15 +103,10 @@ pub struct Bus {
 
 impl Bus {
     /// Opens the session of a learner or router, which others dial and which may dial further routers. Returns the endpoints
-    /// it listens on, with port 0 replaced by a free port.
+    /// it listens on, with port 0 replaced by the port that the system chose.
     pub fn open_router(options: &BusOptions) -> Result<(Self, Vec<String>), BusError> {
         options.check()?;
-        let mut listen = Vec::new();
-        for given in &options.listen {
-            let endpoint = with_free_port(given)?;
-            endpoint::check_free(&endpoint)?;
-            listen.push(endpoint);
-        }
+        options.listen.iter().try_for_each(|endpoint| endpoint::check_free(endpoint))?;
         let mut settings = base_settings(options)?;
         let files = rlimit::increase_nofile_limit(SESSIONS_MAX + ACCEPT_PENDING + OTHER_FILES).unwrap_or(1024);
         let sessions = files.saturating_sub(ACCEPT_PENDING + OTHER_FILES).clamp(16, SESSIONS_MAX);
@@ -130,7 +125,7 @@ impl Bus {
             rules.push(rule("egress", "block"));
         }
         insert(&mut settings, "qos/network", json!(rules))?;
-        let endpoints: Vec<String> = listen.iter().map(|endpoint| with_handshake_timeout(endpoint)).collect();
+        let endpoints: Vec<String> = options.listen.iter().map(|endpoint| with_handshake_timeout(endpoint)).collect();
         insert(&mut settings, "listen/endpoints", json!(endpoints))?;
         if options.discover {
             // It answers but does not dial the routers it finds: links between routers are configured.
@@ -142,6 +137,9 @@ impl Bus {
             dial(&mut settings, &options.connect)?;
         }
         let bus = Self::open(settings)?;
+        let locators: Vec<String> = bus.session.info().locators().wait().iter().map(ToString::to_string).collect();
+        let listen = listening::with_ports(&options.listen, &locators)?;
+        closed_peers::listen_on(&listen);
         if !options.connect.is_empty() {
             redial_pause::install(&bus.session, &listen)?;
         }

@@ -4,7 +4,6 @@
 //! - [`threads`] and [`one_core`]: an encrypted link breaks if two threads use it at once (zenoh#2557).
 //! - `open_files`: Zenoh's threads panic if they cannot open a file.
 //! - `discovery`: a client does not dial a discovered endpoint again.
-//! - `free_port`: Zenoh does not report which port it was given for port 0.
 //! - `close`: closing a session can block on a dead link (zenoh#2675).
 //! - `linger`: closing a link can block on a dead peer.
 //! - `redial_pause`: routers lose each other's declarations when links break together and are dialled again at once.
@@ -13,7 +12,6 @@
 
 pub(crate) mod close;
 pub(crate) mod discovery;
-pub(crate) mod free_port;
 pub(crate) mod kept_queryables;
 pub(crate) mod kept_routes;
 pub(crate) mod linger;

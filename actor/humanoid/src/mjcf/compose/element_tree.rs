@@ -38,7 +38,7 @@ impl Piece {
         Self::section("custom", vec![text])
     }
 
-    /// Returns the element without content, with its defaults and a label for messages.
+    /// Returns the element without content, with a label for messages.
     pub(super) fn element(&self, label: &str) -> Element {
         let name = ["name", "body", "frame", "model"].into_iter().find_map(|name| self.get(name)).unwrap_or(label);
         Element { tag: self.tag.clone(), label: name.to_owned(), attributes: self.attributes.clone() }
@@ -100,18 +100,12 @@ impl Piece {
     }
 
     /// Gives the defaults of the text a class of their own, so that those of an attached model inherit nothing from them.
-    /// Returns whether there are any.
-    pub(super) fn isolate(&mut self, class: &str) -> bool {
+    pub(super) fn isolate(&mut self, class: &str) {
         let defaults = self.take_all("default");
-        let own: Vec<Self> = defaults.into_iter().flat_map(|section| section.children).collect();
-        if own.is_empty() {
-            return false;
-        }
-        let mut nested = Self::section("default", own);
+        let mut nested = Self::section("default", defaults.into_iter().flat_map(|section| section.children).collect());
         nested.set("class", class);
         self.children.push(Self::section("default", vec![nested]));
         self.use_class(class);
-        true
     }
 
     /// Replaces the class `main`, where an element names it.
@@ -154,14 +148,7 @@ impl Piece {
 
     /// Puts a prefix before all names of a whole text, and nests its defaults in a class of the name `main` with the prefix.
     pub(super) fn rename_all(&mut self, prefix: &str) {
-        let main = "main";
-        self.isolate(main);
-        self.use_class(main);
-        if !self.children.iter().any(|section| section.tag == "default") {
-            let mut nested = Self::section("default", Vec::new());
-            nested.set("class", main);
-            self.children.push(Self::section("default", vec![nested]));
-        }
+        self.isolate("main");
         self.children
             .iter_mut()
             .filter(|section| section.tag != "custom")

@@ -24,6 +24,9 @@ pub const CALM_RATE_RADPS: f64 = 1.5;
 /// of 100 instead of once.
 const SHARE_IN_TRAINING: f64 = 0.6;
 
+/// Half periods and seconds that times may be off by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// How long a robot has been asked to stand, in observations with the last one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Standing {
@@ -41,15 +44,24 @@ impl Standing {
         Self { steps: next(self.steps), undisturbed_steps: next(undisturbed) }
     }
 
-    /// Returns whether the robot should rest by now.
-    pub fn is_to_rest(&self, config: &VelocityConfig, step_s: f64) -> bool {
-        let stood_s = f64::from(self.steps.saturating_sub(1)) * step_s;
-        config.gait_rests && self.steps > 0 && stood_s >= config.gait_rests_after_s
+    /// Returns whether the robot should rest by now, so many control steps after the start of the episode.
+    ///
+    /// A gait that has gone on for a while after the command ends with a whole stride, at the next landing of a foot: in the
+    /// middle of a swing, the robot would have to stop on one foot.
+    pub fn is_to_rest(&self, config: &VelocityConfig, step_s: f64, episode_steps: u32) -> bool {
+        if !config.gait_rests || self.steps == 0 {
+            return false;
+        }
+        let time_s = f64::from(episode_steps) * step_s;
+        let due_s = time_s - f64::from(self.steps - 1) * step_s + config.gait_rests_after_s;
+        let half_period_s = config.gait_period_s / 2.0;
+        let landed_s = (time_s / half_period_s + ROUNDING).floor() * half_period_s;
+        config.gait_rests_after_s == 0.0 || landed_s >= due_s - ROUNDING
     }
 
     /// Returns whether its gait rests: it should, and the robot is not disturbed.
-    pub fn rests(&self, config: &VelocityConfig, step_s: f64) -> bool {
-        Self { steps: self.undisturbed_steps, ..*self }.is_to_rest(config, step_s)
+    pub fn rests(&self, config: &VelocityConfig, step_s: f64, episode_steps: u32) -> bool {
+        Self { steps: self.undisturbed_steps, ..*self }.is_to_rest(config, step_s, episode_steps)
     }
 }
 
@@ -100,6 +112,20 @@ mod tests {
         let half = 0.3_f64.asin() / 2.0;
         let tilted = BaseMotion::new(&[0.0, 0.0, 0.8, half.cos(), half.sin(), 0.0, 0.0], &[0.0; 6], 0.0);
         assert!(is_disturbed(&tilted, false));
+    }
+
+    #[test]
+    fn the_gait_ends_at_the_next_landing() {
+        let config = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.5, ..VelocityConfig::default() };
+        // Of a gait of 0.8 s, feet land every 20 steps of 0.02 s. The command to stand comes with observation 13.
+        let first = |config: &VelocityConfig| {
+            (13..200).find(|step| Standing { steps: step - 12, undisturbed_steps: 0 }.is_to_rest(config, 0.02, *step))
+        };
+        assert_eq!(first(&config), Some(40), "at 0.8 s, the first landing after 0.26 s + 0.5 s");
+        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.54, ..config.clone() }), Some(40));
+        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.56, ..config.clone() }), Some(60));
+        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.0, ..config.clone() }), Some(13));
+        assert_eq!(first(&VelocityConfig { gait_rests: false, ..config }), None);
     }
 
     #[test]

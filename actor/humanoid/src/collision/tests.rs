@@ -1,0 +1,69 @@
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use proptest::prelude::*;
+
+use super::model::ShapeNode;
+use super::queries::overlap_m;
+use crate::model::Geometry;
+
+fn numbers() -> impl Strategy<Value = Vector3<f64>> {
+    prop::array::uniform3(-1.0f64..1.0).prop_map(Vector3::from)
+}
+
+fn poses(reach_m: f64) -> impl Strategy<Value = Isometry3<f64>> {
+    (numbers(), numbers()).prop_map(move |(place, turn)| {
+        Isometry3::from_parts(Translation3::from(place * reach_m), UnitQuaternion::from_scaled_axis(turn * 3.0))
+    })
+}
+
+fn geometries() -> impl Strategy<Value = Geometry> {
+    let sizes = || prop::array::uniform3(0.01f64..0.15).prop_map(Vector3::from);
+    prop_oneof![
+        (numbers(), 0.01f64..0.1)
+            .prop_map(|(at, radius_m)| Geometry::Sphere { centre_m: Point3::from(at * 0.05), radius_m }),
+        (numbers(), numbers(), 0.01f64..0.1).prop_map(|(from, to, radius_m)| Geometry::Capsule {
+            from_m: Point3::from(from * 0.1),
+            to_m: Point3::from(to * 0.1),
+            radius_m
+        }),
+        (poses(0.05), sizes()).prop_map(|(pose, size)| Geometry::Cylinder {
+            pose,
+            radius_m: size.x,
+            half_length_m: size.y
+        }),
+        (poses(0.05), sizes()).prop_map(|(pose, half_m)| Geometry::Box { pose, half_m }),
+        (poses(0.05), sizes()).prop_map(|(pose, half_m)| Geometry::Ellipsoid { pose, half_m }),
+        (prop::collection::vec(numbers(), 6..30), sizes()).prop_map(|(corners, size)| Geometry::Hull {
+            vertices_m: corners.iter().map(|corner| Point3::from(corner.component_mul(&size))).collect()
+        }),
+    ]
+}
+
+/// Distance of two line segments, each a centre and a half (m).
+fn distance_m(segments: [(Vector3<f64>, Vector3<f64>); 2]) -> f64 {
+    let nearest = |(centre, half): (Vector3<f64>, Vector3<f64>), point: Vector3<f64>| {
+        centre + half * ((point - centre).dot(&half) / half.norm_squared().max(1e-30)).clamp(-1.0, 1.0)
+    };
+    // The distance is convex along both.
+    let mut other = segments[1].0;
+    let mut one = segments[0].0;
+    for _ in 0..2000 {
+        one = nearest(segments[0], other);
+        other = nearest(segments[1], one);
+    }
+    (one - other).norm()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn shapes_whose_capsules_are_apart_do_not_touch(one in geometries(), other in geometries(), place in poses(0.3)) {
+        let [one, other] = [one, other].map(|geometry| ShapeNode::new(0, None, &geometry));
+        let half = |shape: &ShapeNode| shape.half_m.unwrap_or_default();
+        let moved = (place * Point3::from(other.centre_m)).coords;
+        let apart_m = distance_m([(one.centre_m, half(&one)), (moved, place * half(&other))]);
+        if apart_m > one.thickness_m + other.thickness_m + 1e-4 {
+            prop_assert_eq!(overlap_m(&one, &other, &place), None, "{} m apart", apart_m - one.thickness_m - other.thickness_m);
+        }
+    }
+}

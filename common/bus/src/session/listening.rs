@@ -1,0 +1,84 @@
+//! Ports that the system chose for endpoints that listen on port 0.
+
+use std::net::IpAddr;
+
+use super::endpoint::without_options;
+use crate::error::BusError;
+
+/// Returns protocol, host and port of an endpoint without options, for example `tcp`, `[::1]` and `7447`.
+fn parts(endpoint: &str) -> Option<(&str, &str, &str)> {
+    let (protocol, address) = without_options(endpoint).0.split_once('/')?;
+    let (host, port) = address.rsplit_once(':')?;
+    Some((protocol, host, port))
+}
+
+/// Replaces port 0 of the endpoints of a session by the ports of its locators, which have resolved hosts.
+///
+/// # Errors
+/// [`BusError::Endpoint`] if no locator is left for one: Zenoh has none for 0.0.0.0 or [::] on a machine that has but the
+/// loopback interface.
+pub fn with_ports(endpoints: &[String], locators: &[String]) -> Result<Vec<String>, BusError> {
+    let named: Vec<&str> = endpoints.iter().filter_map(|endpoint| Some(parts(endpoint)?.2)).collect();
+    let mut free: Vec<_> = locators.iter().filter_map(|locator| parts(locator)).collect();
+    free.retain(|(_, _, port)| !named.contains(port));
+    let mut found = endpoints.to_vec();
+    // Hosts that resolve to others, and those that stand for several, take what is left.
+    for is_same_host in [true, false] {
+        for (index, endpoint) in endpoints.iter().enumerate() {
+            let Some((protocol, host, "0")) = parts(&found[index]) else { continue };
+            let is_name = host.trim_matches(['[', ']']).parse::<IpAddr>().is_err();
+            let fits = |(of, at, _): &&(&str, &str, &str)| {
+                let may_be = is_name || at.starts_with('[') == host.starts_with('[');
+                *of == protocol && (*at == host || !is_same_host && may_be)
+            };
+            let Some((_, _, port)) = free.iter().find(fits).copied() else { continue };
+            free.retain(|(_, _, other)| *other != port);
+            let options = without_options(endpoint).1;
+            found[index] = format!("{protocol}/{host}:{port}{options}");
+        }
+    }
+    match found.iter().find(|endpoint| matches!(parts(endpoint), Some((_, _, "0")))) {
+        None => Ok(found),
+        Some(endpoint) => Err(BusError::Endpoint {
+            endpoint: endpoint.clone(),
+            why: "no interface of this machine listens on it; give it a port, or name a host".to_string(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ports(endpoints: &[&str], locators: &[&str]) -> Result<Vec<String>, BusError> {
+        let owned = |texts: &[&str]| texts.iter().map(ToString::to_string).collect::<Vec<_>>();
+        with_ports(&owned(endpoints), &owned(locators))
+    }
+
+    #[test]
+    fn each_endpoint_gets_a_port_of_its_own() {
+        let locators = ["tcp/[::1]:41", "tls/[::1]:42", "tcp/127.0.0.1:7447", "tcp/127.0.0.1:43", "tcp/127.0.0.1:44"];
+        let endpoints = [
+            "tcp/127.0.0.1:0",
+            "tcp/127.0.0.1:7447",
+            "tcp/[::1]:0",
+            "tls/localhost:0#tls_handshake_timeout_ms=5",
+            "tcp/127.0.0.1:0",
+        ];
+        let mut found = ports(&endpoints, &locators).unwrap();
+        let rest = ["tcp/127.0.0.1:7447", "tcp/[::1]:41", "tls/localhost:42#tls_handshake_timeout_ms=5"];
+        assert_eq!(found[1..4], rest);
+        found.retain(|endpoint| !rest.contains(&endpoint.as_str()));
+        found.sort();
+        assert_eq!(found, ["tcp/127.0.0.1:43", "tcp/127.0.0.1:44"]);
+    }
+
+    #[test]
+    fn all_addresses_of_the_machine_share_a_port() {
+        let locators = ["tcp/10.0.0.1:41", "tcp/10.0.0.2:41", "tcp/127.0.0.1:42"];
+        let wanted = ["tcp/0.0.0.0:41", "tcp/127.0.0.1:42"];
+        assert_eq!(ports(&["tcp/0.0.0.0:0", "tcp/127.0.0.1:0"], &locators).unwrap(), wanted);
+        let why = ports(&["tcp/127.0.0.1:0", "tcp/0.0.0.0:0"], &["tcp/127.0.0.1:42"]).unwrap_err().to_string();
+        assert!(why.contains("tcp/0.0.0.0:0") && why.contains("give it a port"), "{why}");
+    }
+}
