@@ -32,6 +32,25 @@ def save(figure, name):
     figure.savefig(PICTURES / name, dpi=80)
 
 
+def learning():
+    """Evaluations over wall time, three seeds of each build."""
+    figure, both = plt.subplots(1, 2, figsize=(9, 3.4))
+    shown = (("walk", "distance (m)", "metres in 15 s"), ("g1", "return", "return of 20 s"))
+    for axes, (preset, value, label) in zip(both, shown):
+        runs = {}
+        for row in rows("learning/curves.csv"):
+            if row["preset"] == preset:
+                runs.setdefault((row["commit"], row["seed"]), []).append((float(row["seconds"]), float(row[value])))
+        commits = list(dict.fromkeys(commit for commit, _ in runs))
+        for (commit, _), points in runs.items():
+            colour = GREY if commit == commits[0] else BLUE
+            axes.plot(*zip(*points), color=colour, linewidth=1.2, label=f"commit {commit}")
+        axes.set(title=preset, xlabel="seconds from the start of `train`", ylabel=label, xlim=0, ylim=0)
+        handles, labels = axes.get_legend_handles_labels()
+        axes.legend(*zip(*{label: (handle, label) for handle, label in zip(handles, labels)}.values()))
+    save(figure, "curves.png")
+
+
 def speed():
     """Ratios of Treadmill's speed to its peers'."""
     shown = [row for row in rows("fidelity/speed.csv") if float(row["ratio"]) > 1.9 and "Rapier" not in row["compared with"]]
@@ -75,6 +94,7 @@ def faults():
 
 
 if __name__ == "__main__":
+    learning()
     speed()
     scale()
     faults()

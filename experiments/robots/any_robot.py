@@ -19,7 +19,7 @@ import pathlib
 import sys
 import tomllib
 
-from obeys import last_line
+from experiments.robots.obeys import last_line
 
 EPISODES = "100"
 GRAVITY_MPS2 = 9.81

@@ -2,24 +2,28 @@
 """Measures how long a robot trains until it obeys velocity commands: the rows of time_to_obey.csv.
 
 Usage: obeys.py PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--first 1]
-                [--all] [--set KEY=VALUE ...]
+                [--all] [--set KEY=VALUE ...] [--csv time_to_obey.csv]
 
 A robot obeys at the first checkpoint that, played without exploration for 100 episodes of 20 s with drawn commands and with the
 pushes of the training, misses the commanded velocity by at most the first error (m/s) and the yaw rate by at most the second
 (rad/s), and falls in at most so many of the episodes, here and in MuJoCo. Its time counts from the start of `train`, with all that
 `train` does, evaluations included. Each seed trains to STEPS alone; checkpoints are measured afterwards. A run that FOLDER holds is
-only measured.
+only measured. `--csv` appends the rows to a table.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one
 """
 
 import argparse
+import bisect
+import csv
 import json
 import os
 import pathlib
 import subprocess
 import sys
+
+from experiments import report
 
 EPISODES = 100
 # Pushes as in training, everything else exact.
@@ -54,6 +58,13 @@ def measured(found):
     return {"velocity_mps": found["velocity_error_mps"], "yaw_radps": found["yaw_rate_error_radps"], "falls": found["falls"]}
 
 
+def steps_at(folder):
+    """Returns a function from updates of a run to its environment steps, to the next logged update."""
+    metrics = map(json.loads, (folder / "metrics.jsonl").read_text(encoding="utf-8").splitlines())
+    logged = sorted((metric["value"], metric["step"]) for metric in metrics if metric["tag"] == "time/iterations")
+    return lambda update: logged[min(bisect.bisect_left(logged, (update,)), len(logged) - 1)][1]
+
+
 def here(program, folder, update):
     """Measures a checkpoint in Treadmill."""
     command = [program, "eval", folder, "--checkpoint", update, "--episodes", str(EPISODES), *PUSHES, "--json"]
@@ -77,14 +88,26 @@ def measure(program, args, seed, folder):
     """Yields the measurements of each checkpoint until one obeys in both simulators."""
     began = began_unix_s(folder)
     numbered = [file for file in sorted((folder / "checkpoints").glob("0*.bundle")) if int(file.stem) >= args.first]
+    steps = steps_at(folder)
     for checkpoint in [*numbered, folder / "checkpoints/latest.bundle"]:
         update = checkpoint.stem.lstrip("0")
         row = {"preset": args.preset, "seed": seed, "checkpoint": update, "seconds": checkpoint.stat().st_mtime - began}
+        row["steps"] = steps(float("inf") if update == "latest" else int(update))
         row["here"] = here(program, folder, update)
         if obeys(args, row["here"]) or args.all:
             row["mujoco"] = in_mujoco(program, args, folder, update)
         row["obeys"] = "mujoco" in row and obeys(args, row["here"]) and obeys(args, row["mujoco"])
         yield row
+
+
+def cells(args, row):
+    """Returns the cells of a row of time_to_obey.csv."""
+    goal = f"{args.errors[0]:g} m/s, {args.errors[1]:g} rad/s, {args.falls} falls"
+    measured = [row["here"], row.get("mujoco")]
+    found = [(f"{one['velocity_mps']:.3f} m/s", f"{one['yaw_radps']:.3f} rad/s", one["falls"]) if one else "–––" for one in measured]
+    obeys = "yes" if row["obeys"] else "no"
+    changes = [f"`{args.preset}`", *args.set]
+    return [", ".join(changes), goal, row["seed"], f"{row['steps'] / 1e6:.2f} M", round(row["seconds"]), obeys, *found[0], *found[1]]
 
 
 def main():
@@ -98,6 +121,7 @@ def main():
     parser.add_argument("--falls", type=int, default=5)
     parser.add_argument("--first", type=int, default=1, help="update of the first checkpoint to measure")
     parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--csv", type=pathlib.Path)
     parser.add_argument("--all", action="store_true", help="measure every checkpoint, each in both simulators")
     args = parser.parse_args()
     program = os.environ.get("TREADMILL", "target/release/treadmill")
@@ -106,6 +130,10 @@ def main():
         train(program, args, seed, folder)
         for row in measure(program, args, seed, folder):
             print(json.dumps(row), flush=True)
+            if args.csv:
+                with args.csv.open("a", encoding="utf-8", newline="") as file:
+                    made = [report.commit(), report.cpu_model()]
+                    csv.writer(file, lineterminator="\n").writerow([*cells(args, row), *made])
             if row["obeys"] and not args.all:
                 break
 

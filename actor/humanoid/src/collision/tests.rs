@@ -1,8 +1,11 @@
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
 use super::model::ShapeNode;
-use super::queries::overlap_m;
+use super::queries::{gap_m, overlap_m};
 use crate::model::Geometry;
 
 fn numbers() -> impl Strategy<Value = Vector3<f64>> {
@@ -66,4 +69,26 @@ proptest! {
             prop_assert_eq!(overlap_m(&one, &other, &place), None, "{} m apart", apart_m - one.thickness_m - other.thickness_m);
         }
     }
+}
+
+#[test]
+fn hulls_that_are_apart_do_not_touch() {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(1);
+    let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..size));
+    let mut near = 0;
+    for case in 0..60_000 {
+        let [one, other] = [(); 2].map(|()| {
+            let size = vector(0.03).map(|part| 0.02 + part.abs());
+            let vertices_m = (0..20).map(|_| Point3::from(vector(1.0).component_mul(&size))).collect();
+            ShapeNode::new(0, None, &Geometry::Hull { vertices_m })
+        });
+        let place =
+            Isometry3::from_parts(Translation3::from(vector(0.08)), UnitQuaternion::from_scaled_axis(vector(3.0)));
+        let apart_m = gap_m(&one, &other, &place).unwrap_or(0.0);
+        if (2e-4..5e-3).contains(&apart_m) {
+            near += 1;
+            assert_eq!(overlap_m(&one, &other, &place), None, "case {case}: {apart_m} m apart");
+        }
+    }
+    assert!(near > 3000, "{near}");
 }
