@@ -1,10 +1,10 @@
-#!/usr/bin/env python3
 """Trains the same presets and seeds with several builds in turn, and tabulates their evaluations: the rows of curves.csv.
 
-Usage: curves.py FOLDER --build COMMIT=PROGRAM [--build ...] --preset PRESET STEPS [MODEL] [--preset ...] [--seeds 1 2 3]
+Usage: python3 -m experiments.learning.curves FOLDER --build COMMIT=PROGRAM [--build ...] --preset PRESET STEPS [MODEL] [--preset ...] [--seeds 1 2 3]
                  --csv FILE.csv
 
-Each run has the machine to itself, and its time counts from the start of `train`. A run that FOLDER holds is only tabulated.
+Each run has the machine to itself, and its time counts from the start of `train`. A complete run that FOLDER holds is only
+tabulated.
 `python3 -m experiments.pictures` draws the table. Needs no Python packages.
 """
 
@@ -23,6 +23,9 @@ TAGS = {"return": "eval/mean_reward", "distance (m)": "eval/distance_mean_m", "f
 def train(program, folder, seed, preset, steps, model=None):
     """Trains a run unless it exists."""
     if folder.exists():
+        last = json.loads((folder / "metrics.jsonl").read_text(encoding="utf-8").splitlines()[-1])["step"]
+        if last < int(steps):
+            sys.exit(f"{folder} ended after {last} of {steps} steps; remove it")
         return
     command = [program, "train", "--preset", preset, "--steps", steps, "--seed", str(seed), "--run-dir", folder]
     run = subprocess.run([*command, *(["--model", model] if model else []), "--json", "--no-progress"], capture_output=True, text=True)
@@ -40,7 +43,8 @@ def evaluations(folder):
             values = found.setdefault(metric["step"], {"seconds": metric["time_unix_s"] - began})
             values[metric["tag"]] = metric["value"]
     for step, values in sorted(found.items()):
-        yield step, values["seconds"], [values[tag] for tag in TAGS.values()]
+        if len(values) > len(TAGS):
+            yield step, values["seconds"], [values[tag] for tag in TAGS.values()]
 
 
 def main():

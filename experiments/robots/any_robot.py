@@ -1,7 +1,7 @@
-#!/usr/bin/env python3
 """Trains a robot from its maker's file, without card or preset, and measures its policy here and in MuJoCo: the rows of any_robot.csv.
 
-Usage: any_robot.py NAME MODEL STEPS FOLDER [--seeds 1 2 3] [--set KEY=VALUE ...] [--package NAME=FOLDER ...]
+Usage: python3 -m experiments.robots.any_robot NAME MODEL STEPS FOLDER [--seeds 1 2 3] [--set KEY=VALUE ...]
+                [--package NAME=FOLDER ...]
 
 Episodes of 20 s have drawn commands and the pushes of the training, everything else exact. The error of the velocity is also
 given by √(g × leg length), so that robots of different sizes compare. MuJoCo plays the ONNX file on the same MJCF; for a URDF on the

@@ -1,14 +1,13 @@
-#!/usr/bin/env python3
 """Measures how long a robot trains until it obeys velocity commands: the rows of time_to_obey.csv.
 
-Usage: obeys.py PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--first 1]
+Usage: python3 -m experiments.robots.obeys PRESET MODEL STEPS FOLDER [--seeds 1 2 3] [--errors 0.15 0.2] [--falls 5] [--first 1]
                 [--all] [--set KEY=VALUE ...] [--csv time_to_obey.csv]
 
 A robot obeys at the first checkpoint that, played without exploration for 100 episodes of 20 s with drawn commands and with the
 pushes of the training, misses the commanded velocity by at most the first error (m/s) and the yaw rate by at most the second
 (rad/s), and falls in at most so many of the episodes, here and in MuJoCo. Its time counts from the start of `train`, with all that
 `train` does, evaluations included. Each seed trains to STEPS alone; checkpoints are measured afterwards. A run that FOLDER holds is
-only measured. `--csv` appends the rows to a table.
+only measured. `--csv` appends the rows to a table, with this repository's commit.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one
@@ -28,6 +27,10 @@ from experiments import report
 EPISODES = 100
 # Pushes as in training, everything else exact.
 PUSHES = ["--set", "randomisation.push_mps=[0.0,0.5]", "--set", "randomisation.push_interval_s=[5.0,10.0]"]
+SOURCES = ("actor", "common", "learner", "src")
+MEASURED = ["velocity error", "yaw rate error", "falls"]
+COLUMNS = ["preset", f"goal, of {EPISODES} episodes", "seed", "steps", "seconds from the start of `train`", "obeys", *MEASURED]
+COLUMNS += [f"in MuJoCo: {MEASURED[0]}", *MEASURED[1:], "commit", "machine"]
 CHECKPOINTS = ["--set", "learner.checkpoint_every_updates=100", "--set", "learner.keep_checkpoints=1000"]
 
 
@@ -131,9 +134,13 @@ def main():
         for row in measure(program, args, seed, folder):
             print(json.dumps(row), flush=True)
             if args.csv:
+                made = [report.commit(SOURCES), report.cpu_model()]
+                is_new = not args.csv.exists()
                 with args.csv.open("a", encoding="utf-8", newline="") as file:
-                    made = [report.commit(), report.cpu_model()]
-                    csv.writer(file, lineterminator="\n").writerow([*cells(args, row), *made])
+                    table = csv.writer(file, lineterminator="\n")
+                    if is_new:
+                        table.writerow(COLUMNS)
+                    table.writerow([*cells(args, row), *made])
             if row["obeys"] and not args.all:
                 break
 

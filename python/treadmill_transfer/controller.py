@@ -30,7 +30,9 @@ class Controller:
     def observe(self, robot, command):
         """Returns the whole observation of the present state; once per control step."""
         contract, stands = self.contract, numpy.linalg.norm(command) < self.contract.gait_rests_below
-        is_disturbed = contract.gait_rests_after_s > 0.0 and rests(contract, self.steps, self.standing_steps) and not is_calm(contract, robot)
+        # By the last observation, whose time these steps are of.
+        rested = contract.gait_rests_after_s > 0.0 and rests(contract, self.steps - 1, self.standing_steps)
+        is_disturbed = rested and not is_calm(contract, robot)
         self.standing_steps = (0 if is_disturbed else self.standing_steps) + 1 if stands else 0
         frame = numpy.concatenate([_TERMS[name](self, robot, command) for name, _ in self.contract.observation])
         if self._frames is None:

@@ -57,6 +57,10 @@ pub(crate) struct Collisions<S: Simd> {
     queries: Queries,
 }
 
+/// By how much the distance of two axes may be too large (m): nearly parallel ones of half a metre lose 0.1 mm in single
+/// precision.
+const ROUNDING_M: f64 = 2e-4;
+
 /// Gap of a contact in the lanes where it does not exist (m).
 const ABSENT_M: f64 = 1e6;
 
@@ -150,7 +154,7 @@ impl<S: Simd> Collisions<S> {
             return near;
         }
         let squared = squared_distance(&offset, &self.halves_m[first], &self.halves_m[second]);
-        let reach_m = model.shapes[first].thickness_m + model.shapes[second].thickness_m + pair.margin_m;
+        let reach_m = model.shapes[first].thickness_m + model.shapes[second].thickness_m + pair.margin_m + ROUNDING_M;
         near.and(squared.less_than(offset.x.constant(reach_m * reach_m)))
     }
 
@@ -204,7 +208,9 @@ fn squared_distance<S: Simd>(offset: &Vec3<S>, one: &Vec3<S>, other: &Vec3<S>) -
     let tiny = offset.x.constant(1e-12);
     let (a, b, e) = (one.dot(one), one.dot(other), other.dot(other));
     let (c, f) = (one.dot(offset), other.dot(offset));
-    let s = within_one((b * f - c * e) / (a * e - b * b).max(tiny));
+    // Of parallel ones, any place along the first will do.
+    let least = a * e * 1e-6 + tiny.constant(1e-30);
+    let s = within_one((b * f - c * e) / (a * e - b * b).max(least));
     let t = within_one((b * s + f) / e.max(tiny));
     let s = within_one((b * t - c) / a.max(tiny));
     let between = *offset + *one * s - *other * t;

@@ -25,6 +25,8 @@ const CANDIDATES_MAX: usize = 128;
 /// Points of one pair that are closer than this (m) and have the same normal are one.
 const SAME_POINT_M: f64 = 1e-3;
 
+/// By how much a contact may be nearer than its shapes (m): rounding.
+const SAME_GAP_M: f64 = 1e-4;
 /// Distance up to which shapes that seem to touch are looked for (m): robots are smaller.
 const REACH_M: f32 = 100.0;
 
@@ -146,9 +148,11 @@ impl Queries {
         self.collect(pose, shape, other_pose, other, prediction, points);
         // Of hulls and cylinders 0.2 to 5 mm apart, two in a thousand get contacts, up to 3 cm deep
         // (`findings/parry_contacts_of_shapes_apart.sh`).
-        let may_be_apart = !points.candidates.is_empty() && shapes.iter().any(|node| !node.is_round);
-        if may_be_apart && slab_m([pose, other_pose], [shape, other]).is_some_and(|width_m| width_m > prediction) {
-            points.candidates.clear();
+        if !points.candidates.is_empty()
+            && shapes.iter().any(|node| !node.is_round)
+            && let Some(width_m) = slab_m([pose, other_pose], [shape, other])
+        {
+            points.candidates.retain(|point| point.gap_m > f64::from(width_m) - SAME_GAP_M);
         }
     }
 

@@ -6,6 +6,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::model::ShapeNode;
 use super::queries::{gap_m, overlap_m};
+use super::{ROUNDING_M, squared_distance};
+use crate::lanes::{Scalar, Vec3};
 use crate::model::Geometry;
 
 fn numbers() -> impl Strategy<Value = Vector3<f64>> {
@@ -41,19 +43,23 @@ fn geometries() -> impl Strategy<Value = Geometry> {
     ]
 }
 
-/// Distance of two line segments, each a centre and a half (m).
-fn distance_m(segments: [(Vector3<f64>, Vector3<f64>); 2]) -> f64 {
-    let nearest = |(centre, half): (Vector3<f64>, Vector3<f64>), point: Vector3<f64>| {
-        centre + half * ((point - centre).dot(&half) / half.norm_squared().max(1e-30)).clamp(-1.0, 1.0)
+type Segment = (Vector3<f64>, Vector3<f64>);
+
+/// Distance of two line segments, each a centre and a half (m): that of their lines, if the closest points are on them, else
+/// the least one of an end.
+fn distance_m(segments: [Segment; 2]) -> f64 {
+    let to_point = |(centre, half): Segment, point: Vector3<f64>| {
+        let share = (point - centre).dot(&half) / half.norm_squared().max(1e-30);
+        (centre + half * share.clamp(-1.0, 1.0) - point).norm()
     };
-    // The distance is convex along both.
-    let mut other = segments[1].0;
-    let mut one = segments[0].0;
-    for _ in 0..2000 {
-        one = nearest(segments[0], other);
-        other = nearest(segments[1], one);
-    }
-    (one - other).norm()
+    let [(one, half), (other, other_half)] = segments;
+    let ends = [1.0, -1.0]
+        .map(|sign| to_point(segments[1], one + half * sign).min(to_point(segments[0], other + other_half * sign)));
+    let across = half.cross(&other_half);
+    let square = across.norm_squared();
+    let shares = [other_half, half].map(|along| (other - one).cross(&along).dot(&across) / square);
+    let lines = shares.iter().all(|share| share.abs() <= 1.0).then(|| (other - one).dot(&across).abs() / square.sqrt());
+    ends.into_iter().chain(lines).fold(f64::INFINITY, f64::min)
 }
 
 proptest! {
@@ -68,6 +74,29 @@ proptest! {
         if apart_m > one.thickness_m + other.thickness_m + 1e-4 {
             prop_assert_eq!(overlap_m(&one, &other, &place), None, "{} m apart", apart_m - one.thickness_m - other.thickness_m);
         }
+    }
+}
+
+proptest! {
+    #[test]
+    fn axes_are_not_much_nearer_than_in_double_precision(
+        one in numbers(), other in numbers(), offset in numbers(), sizes in prop::array::uniform3(-7i32..0), parallel in any::<bool>()
+    ) {
+        let [one, other, offset] = [(one, sizes[0]), (other, sizes[1]), (offset, 0)].map(|(vector, size)| vector * 2f64.powi(size));
+        let other = if parallel { one * 0.7 + other * 1e-4 } else { other };
+        let [lanes_offset, lanes_one, lanes_other] = [offset, one, other].map(|vector| Vec3::splat(Scalar, &vector));
+        let found = squared_distance(&lanes_offset, &lanes_one, &lanes_other).lane(0).sqrt();
+        let exact = distance_m([(offset, one), (Vector3::zeros(), other)]);
+        prop_assert!(found < exact + ROUNDING_M, "{found} instead of {exact}");
+    }
+
+    #[test]
+    fn shapes_with_a_common_centre_are_not_separated(one in geometries(), other in geometries(), turn in numbers()) {
+        let centres = [&one, &other].map(|geometry| geometry.centre_m().coords);
+        let [one, other] = [one, other].map(|geometry| ShapeNode::new(0, None, &geometry));
+        let turn = UnitQuaternion::from_scaled_axis(turn * 3.0);
+        let place = Isometry3::from_parts(Translation3::from(centres[0] - turn * centres[1]), turn);
+        prop_assert_eq!(gap_m(&one, &other, &place), None);
     }
 }
 

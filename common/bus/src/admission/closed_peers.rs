@@ -1,5 +1,6 @@
-//! Peers whose connections this process has just closed, by Linux's table of TCP connections: Zenoh does not name the peer of a
-//! rejected connection. No upstream issue is known.
+//! Peers whose connections this process has just closed, by Linux's table of TCP connections.
+//!
+//! Zenoh does not name the peer of a rejected connection. No upstream issue is known.
 
 use std::{
     net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr},
@@ -8,11 +9,13 @@ use std::{
 
 /// Ports on which this process listens.
 static LISTENING: Mutex<Vec<u16>> = Mutex::new(Vec::new());
-/// States of the kernel's `tcp_states.h` in which the end that closes first waits for the other one.
-const FIN_WAIT: [&str; 2] = ["04", "05"];
-const TIME_WAIT: &str = "06";
+/// States of the kernel's `tcp_states.h` in which the end that closed first waits: FIN_WAIT1 for an answer, the others, by a
+/// timer of their own, for the other end or until nothing is on its way any more.
+const FIN_WAIT1: &str = "04";
+const WAITING: [&str; 2] = ["05", "06"];
+const WAIT_TIMER: &str = "03";
 /// Hundredths of a second that a closed connection stays in the table, and for which it counts as just closed.
-const TIME_WAIT_TICKS: u64 = 6000;
+const CLOSED_TICKS: u64 = 6000;
 const JUST_TICKS: u64 = 100;
 /// Peers that are named.
 const PEERS_MAX: usize = 4;
@@ -25,27 +28,45 @@ pub fn listen_on(endpoints: &[String]) {
     LISTENING.lock().expect("no holder of this lock panics").extend(ports);
 }
 
-/// Returns the peers whose connections to this process were closed by it within the last second, where the system says so.
-pub fn just_closed() -> Vec<SocketAddr> {
+/// Returns the peers whose connections to this process were closed by it within the last second, the last one first, one of
+/// each host, where the system says so.
+pub fn just_closed() -> Vec<String> {
     let ports = LISTENING.lock().expect("no holder of this lock panics").clone();
-    let tables =
-        ["/proc/self/net/tcp", "/proc/self/net/tcp6"].map(|path| std::fs::read_to_string(path).unwrap_or_default());
-    let mut peers: Vec<SocketAddr> = tables.iter().flat_map(|table| in_table(table, &ports)).collect();
-    peers.sort_unstable();
-    peers.dedup_by_key(|peer| peer.ip());
-    peers.truncate(PEERS_MAX);
-    peers
+    let mut closed = closed(&ports);
+    closed.sort_by_key(|(left_ticks, _)| std::cmp::Reverse(*left_ticks));
+    let mut peers: Vec<SocketAddr> = Vec::new();
+    for (_, peer) in closed {
+        if peers.iter().all(|known| known.ip() != peer.ip()) {
+            peers.push(peer);
+        }
+    }
+    peers.iter().take(PEERS_MAX).map(ToString::to_string).collect()
 }
 
-/// Returns the peers of a table (proc_net_tcp, `Documentation/networking/proc_net_tcp.rst` of Linux).
-fn in_table(table: &str, ports: &[u16]) -> Vec<SocketAddr> {
+fn closed(ports: &[u16]) -> Vec<(u64, SocketAddr)> {
+    let tables = ["/proc/self/net/tcp", "/proc/self/net/tcp6"];
+    tables.iter().flat_map(|path| in_table(&std::fs::read_to_string(path).unwrap_or_default(), ports)).collect()
+}
+
+/// Returns the peers of a table, each with the time that is left to it.
+///
+/// Columns: Linux, `Documentation/networking/proc_net_tcp.rst`.
+fn in_table(table: &str, ports: &[u16]) -> Vec<(u64, SocketAddr)> {
     let peer = |line: &str| {
         let mut fields = line.split_whitespace().skip(1);
         let (local, remote, state) = (address(fields.next()?)?, address(fields.next()?)?, fields.next()?);
         // Of "timer:when".
-        let left_ticks = u64::from_str_radix(fields.nth(1)?.split_once(':')?.1, 16).ok()?;
-        let is_new = FIN_WAIT.contains(&state) || state == TIME_WAIT && left_ticks + JUST_TICKS >= TIME_WAIT_TICKS;
-        (is_new && ports.contains(&local.port())).then_some(remote)
+        let (timer, left) = fields.nth(1)?.split_once(':')?;
+        let left_ticks = u64::from_str_radix(left, 16).ok()?;
+        let (left_ticks, is_new) = match state {
+            // The end was not sent again yet.
+            FIN_WAIT1 => (CLOSED_TICKS, u64::from_str_radix(fields.next()?, 16).ok()? == 0),
+            _ if WAITING.contains(&state) && timer == WAIT_TIMER => {
+                (left_ticks, left_ticks + JUST_TICKS >= CLOSED_TICKS)
+            }
+            _ => return None,
+        };
+        (is_new && ports.contains(&local.port())).then_some((left_ticks, remote))
     };
     table.lines().filter_map(peer).collect()
 }
@@ -87,11 +108,15 @@ mod tests {
             row("0100007F:1D17", "0300000A:A49E", "06", "03:00001700"),
             row("0100007F:1D18", "0400000A:A49E", "06", "03:0000176F"),
             row("0100007F:1D17", "0500000A:A49E", "01", "00:00000000"),
-            row("0100007F:1D17", "0600000A:A49E", "05", "00:00000000"),
+            row("0100007F:1D17", "0600000A:A49E", "05", "03:00001770"),
+            row("0100007F:1D17", "0700000A:A49E", "05", "02:00001770"),
+            row("0100007F:1D17", "0800000A:A49E", "04", "01:00000014"),
+            row("0100007F:1D17", "0900000A:A49E", "04", "01:00000014").replace("00000000     0", "00000002     0"),
             "garbage\n".to_string(),
         ];
         let found = in_table(&table.concat(), &[7447]);
-        assert_eq!(found, ["10.0.0.2:42142".parse().unwrap(), "10.0.0.6:42142".parse().unwrap()]);
+        let of = |host: u8| SocketAddr::from(([10, 0, 0, host], 42142));
+        assert_eq!(found, [(0x176f, of(2)), (0x1770, of(6)), (CLOSED_TICKS, of(8))]);
     }
 
     #[test]
@@ -106,14 +131,15 @@ mod tests {
     #[test]
     fn a_connection_of_this_process_is_seen_when_it_ends() {
         let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-        listen_on(&[format!("tls/{}#tls_handshake_timeout_ms=1", listener.local_addr().unwrap())]);
-        let client = std::net::TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let address = listener.local_addr().unwrap();
+        let client = std::net::TcpStream::connect(address).unwrap();
         let (accepted, peer) = listener.accept().unwrap();
-        assert!(!just_closed().contains(&peer));
+        let is_seen = || closed(&[address.port()]).iter().any(|(_, found)| *found == peer);
+        assert!(!is_seen());
         drop(accepted);
-        if cfg!(target_os = "linux") {
-            assert!(just_closed().contains(&peer), "{:?}", just_closed());
-        }
+        assert_eq!(is_seen(), cfg!(target_os = "linux"));
+        listen_on(&[format!("tls/{address}#tls_handshake_timeout_ms=1")]);
+        assert!(LISTENING.lock().unwrap().contains(&address.port()));
         drop(client);
     }
 }

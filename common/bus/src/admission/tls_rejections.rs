@@ -19,11 +19,12 @@ pub fn log_tls_rejections<S: Subscriber + for<'a> LookupSpan<'a>>() -> impl Laye
     std::thread::spawn(move || {
         let log = RateLimitedLog::default();
         for error in errors {
-            let peers: Vec<String> = closed_peers::just_closed().iter().map(ToString::to_string).collect();
-            let reason = likely_cause(&error);
-            log.emit(|| match peers.is_empty() {
-                true => tracing::warn!(reason, %error, "connection rejected"),
-                false => tracing::warn!(reason, %error, peer = %peers.join(" or "), "connection rejected"),
+            log.emit(|| {
+                let (reason, peers) = (likely_cause(&error), closed_peers::just_closed());
+                match peers.is_empty() {
+                    true => tracing::warn!(reason, %error, "connection rejected"),
+                    false => tracing::warn!(reason, %error, peer = %peers.join(" or "), "connection rejected"),
+                }
             });
         }
     });

@@ -12,6 +12,10 @@ fn parts(endpoint: &str) -> Option<(&str, &str, &str)> {
     Some((protocol, host, port))
 }
 
+fn ip(host: &str) -> Option<IpAddr> {
+    host.trim_matches(['[', ']']).parse().ok()
+}
+
 /// Replaces port 0 of the endpoints of a session by the ports of its locators, which have resolved hosts.
 ///
 /// # Errors
@@ -22,14 +26,21 @@ pub fn with_ports(endpoints: &[String], locators: &[String]) -> Result<Vec<Strin
     let mut free: Vec<_> = locators.iter().filter_map(|locator| parts(locator)).collect();
     free.retain(|(_, _, port)| !named.contains(port));
     let mut found = endpoints.to_vec();
-    // Hosts that resolve to others, and those that stand for several, take what is left.
-    for is_same_host in [true, false] {
+    // Names take what is left, since they may stand for any address.
+    for round in [0, 1, 2] {
         for (index, endpoint) in endpoints.iter().enumerate() {
             let Some((protocol, host, "0")) = parts(&found[index]) else { continue };
-            let is_name = host.trim_matches(['[', ']']).parse::<IpAddr>().is_err();
             let fits = |(of, at, _): &&(&str, &str, &str)| {
-                let may_be = is_name || at.starts_with('[') == host.starts_with('[');
-                *of == protocol && (*at == host || !is_same_host && may_be)
+                *of == protocol
+                    && match (ip(host), ip(at)) {
+                        (Some(host), Some(at)) if round == 0 => host == at,
+                        // Zenoh counts addresses of version 4 among those of [::], and leaves out loopback.
+                        (Some(host), Some(at)) if round == 1 => {
+                            host.is_unspecified() && !at.is_loopback() && (host.is_ipv6() || at.is_ipv4())
+                        }
+                        (None, _) => round == 2 || *at == host,
+                        _ => false,
+                    }
             };
             let Some((_, _, port)) = free.iter().find(fits).copied() else { continue };
             free.retain(|(_, _, other)| *other != port);
@@ -78,6 +89,9 @@ mod tests {
         let locators = ["tcp/10.0.0.1:41", "tcp/10.0.0.2:41", "tcp/127.0.0.1:42"];
         let wanted = ["tcp/0.0.0.0:41", "tcp/127.0.0.1:42"];
         assert_eq!(ports(&["tcp/0.0.0.0:0", "tcp/127.0.0.1:0"], &locators).unwrap(), wanted);
+        let wanted = ["tcp/localhost:42", "tcp/0.0.0.0:41"];
+        assert_eq!(ports(&["tcp/localhost:0", "tcp/0.0.0.0:0"], &locators).unwrap(), wanted);
+        assert_eq!(ports(&["tcp/[::]:0"], &["tcp/10.0.0.1:41"]).unwrap(), ["tcp/[::]:41"]);
         let why = ports(&["tcp/127.0.0.1:0", "tcp/0.0.0.0:0"], &["tcp/127.0.0.1:42"]).unwrap_err().to_string();
         assert!(why.contains("tcp/0.0.0.0:0") && why.contains("give it a port"), "{why}");
     }

@@ -37,10 +37,17 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Returns the times with another observation.
-    pub fn after(self, stands: bool, is_disturbed: bool) -> Self {
+    /// Returns the times with another observation, so many control steps after the start of the episode. A robot that rested
+    /// by the last observation may be disturbed.
+    pub fn after(
+        self,
+        stands: bool,
+        (config, step_s, episode_steps): (&VelocityConfig, f64, u32),
+        is_disturbed: impl FnOnce() -> bool,
+    ) -> Self {
         let next = |steps: u32| if stands { steps.saturating_add(1) } else { 0 };
-        let undisturbed = if is_disturbed { 0 } else { self.undisturbed_steps };
+        let rested = stands && self.rests(config, step_s, episode_steps.saturating_sub(1));
+        let undisturbed = if rested && is_disturbed() { 0 } else { self.undisturbed_steps };
         Self { steps: next(self.steps), undisturbed_steps: next(undisturbed) }
     }
 
@@ -101,11 +108,16 @@ mod tests {
 
     #[test]
     fn a_disturbance_begins_the_time_at_rest_anew() {
-        let stood = Standing { steps: 7, undisturbed_steps: 4 };
-        let times = |standing: Standing| (standing.steps, standing.undisturbed_steps);
-        assert_eq!(times(stood.after(true, false)), (8, 5));
-        assert_eq!(times(stood.after(true, true)), (8, 1));
-        assert_eq!(times(stood.after(false, false)), (0, 0));
+        let rest = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.03, ..VelocityConfig::default() };
+        // A foot lands every 3 steps, at the third one 0.01 s after the gait was to rest. It is disturbed at once.
+        let config = VelocityConfig { gait_period_s: 0.12, ..rest };
+        let mut standing = Standing::default();
+        let times = [true, true, true, true, true, true, true, false].iter().zip(1..).map(|(stands, step)| {
+            standing = standing.after(*stands, (&config, 0.02, step), || true);
+            (standing.steps, standing.undisturbed_steps)
+        });
+        let wanted = [(1, 1), (2, 2), (3, 3), (4, 1), (5, 2), (6, 3), (7, 1), (0, 0)];
+        assert_eq!(times.collect::<Vec<_>>(), wanted);
         let upright = BaseMotion::new(&[0.0, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0], 0.0);
         // 1 rad/s is more than 0.6 · 1.5 rad/s.
         assert!(is_disturbed(&upright, true) && !is_disturbed(&upright, false));
