@@ -6,9 +6,6 @@ import numpy
 
 from .contract import TransferError
 
-# Half periods and seconds that times may be off by rounding.
-ROUNDING = 1e-9
-
 
 class Controller:
     """Turns what sensors measure into targets, as on the robot."""
@@ -30,9 +27,7 @@ class Controller:
     def observe(self, robot, command):
         """Returns the whole observation of the present state; once per control step."""
         contract, stands = self.contract, numpy.linalg.norm(command) < self.contract.gait_rests_below
-        # By the last observation, whose time these steps are of.
-        rested = contract.gait_rests_after_s > 0.0 and rests(contract, self.steps - 1, self.standing_steps)
-        is_disturbed = rested and not is_calm(contract, robot)
+        is_disturbed = contract.gait_rests_after_s > 0.0 and rests(contract, self.standing_steps) and not is_calm(contract, robot)
         self.standing_steps = (0 if is_disturbed else self.standing_steps) + 1 if stands else 0
         frame = numpy.concatenate([_TERMS[name](self, robot, command) for name, _ in self.contract.observation])
         if self._frames is None:
@@ -75,22 +70,14 @@ def is_calm(contract, robot):
     return is_upright and numpy.linalg.norm(robot.angular_radps) < contract.gait_rests_rate_radps
 
 
-def rests(contract, steps, standing_steps):
-    """Returns whether the gait rests, after so many control steps in all, and so many, with the present one, under a command to stand.
-
-    A gait that goes on after the command ends at the next landing of a foot.
-    """
-    if standing_steps == 0 or contract.gait_rests_after_s == 0.0:
-        return standing_steps > 0
-    time_s = steps * contract.control_step_s
-    due_s = time_s - (standing_steps - 1) * contract.control_step_s + contract.gait_rests_after_s
-    half_period_s = contract.gait_period_s / 2.0
-    return math.floor(time_s / half_period_s + ROUNDING) * half_period_s >= due_s - ROUNDING
+def rests(contract, standing_steps):
+    """Returns whether the gait rests after so many control steps, with the present one, under a command to stand."""
+    return standing_steps > 0 and (standing_steps - 1) * contract.control_step_s >= contract.gait_rests_after_s
 
 
 def phase(contract, steps, standing_steps):
     """Returns sine and cosine of the gait's phase after so many control steps; zeros where the gait rests."""
-    if rests(contract, steps, standing_steps):
+    if rests(contract, standing_steps):
         return numpy.zeros(2)
     angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
     return numpy.array([math.sin(angle), math.cos(angle)])

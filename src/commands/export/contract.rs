@@ -175,8 +175,8 @@ impl Contract {
             ("gait_period_s", json!(velocity.gait_period_s)),
             // Norm of the command below which the phase is (0, 0).
             ("gait_rests_below", json!(if velocity.gait_rests { STANDING_COMMAND } else { 0.0 })),
-            // Time for which it must have been below, before the next multiple of half a period, and for which the phase
-            // comes back when tilt (horizontal part of gravity) or angular velocity exceed these.
+            // Time for which it must have been below, and for which the phase comes back when tilt (horizontal part of
+            // gravity) or angular velocity exceed these.
             ("gait_rests_after_s", json!(velocity.gait_rests_after_s)),
             ("gait_rests_tilt", json!(CALM_TILT)),
             ("gait_rests_rate_radps", json!(CALM_RATE_RADPS)),

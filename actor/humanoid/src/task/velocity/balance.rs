@@ -24,9 +24,6 @@ pub const CALM_RATE_RADPS: f64 = 1.5;
 /// of 100 instead of once.
 const SHARE_IN_TRAINING: f64 = 0.6;
 
-/// Half periods and seconds that times may be off by rounding.
-const ROUNDING: f64 = 1e-9;
-
 /// How long a robot has been asked to stand, in observations with the last one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Standing {
@@ -37,38 +34,22 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Returns the times with another observation, so many control steps after the start of the episode. A robot that rested
-    /// by the last observation may be disturbed.
-    pub fn after(
-        self,
-        stands: bool,
-        (config, step_s, episode_steps): (&VelocityConfig, f64, u32),
-        is_disturbed: impl FnOnce() -> bool,
-    ) -> Self {
+    /// Returns the times with another observation.
+    pub fn after(self, stands: bool, is_disturbed: bool) -> Self {
         let next = |steps: u32| if stands { steps.saturating_add(1) } else { 0 };
-        let rested = stands && self.rests(config, step_s, episode_steps.saturating_sub(1));
-        let undisturbed = if rested && is_disturbed() { 0 } else { self.undisturbed_steps };
+        let undisturbed = if is_disturbed { 0 } else { self.undisturbed_steps };
         Self { steps: next(self.steps), undisturbed_steps: next(undisturbed) }
     }
 
-    /// Returns whether the robot should rest by now, so many control steps after the start of the episode.
-    ///
-    /// A gait that has gone on for a while after the command ends with a whole stride, at the next landing of a foot: in the
-    /// middle of a swing, the robot would have to stop on one foot.
-    pub fn is_to_rest(&self, config: &VelocityConfig, step_s: f64, episode_steps: u32) -> bool {
-        if !config.gait_rests || self.steps == 0 {
-            return false;
-        }
-        let time_s = f64::from(episode_steps) * step_s;
-        let due_s = time_s - f64::from(self.steps - 1) * step_s + config.gait_rests_after_s;
-        let half_period_s = config.gait_period_s / 2.0;
-        let landed_s = (time_s / half_period_s + ROUNDING).floor() * half_period_s;
-        config.gait_rests_after_s == 0.0 || landed_s >= due_s - ROUNDING
+    /// Returns whether the robot should rest by now.
+    pub fn is_to_rest(&self, config: &VelocityConfig, step_s: f64) -> bool {
+        let stood_s = f64::from(self.steps.saturating_sub(1)) * step_s;
+        config.gait_rests && self.steps > 0 && stood_s >= config.gait_rests_after_s
     }
 
     /// Returns whether its gait rests: it should, and the robot is not disturbed.
-    pub fn rests(&self, config: &VelocityConfig, step_s: f64, episode_steps: u32) -> bool {
-        Self { steps: self.undisturbed_steps, ..*self }.is_to_rest(config, step_s, episode_steps)
+    pub fn rests(&self, config: &VelocityConfig, step_s: f64) -> bool {
+        Self { steps: self.undisturbed_steps, ..*self }.is_to_rest(config, step_s)
     }
 }
 
@@ -108,36 +89,17 @@ mod tests {
 
     #[test]
     fn a_disturbance_begins_the_time_at_rest_anew() {
-        let rest = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.03, ..VelocityConfig::default() };
-        // A foot lands every 3 steps, at the third one 0.01 s after the gait was to rest. It is disturbed at once.
-        let config = VelocityConfig { gait_period_s: 0.12, ..rest };
-        let mut standing = Standing::default();
-        let times = [true, true, true, true, true, true, true, false].iter().zip(1..).map(|(stands, step)| {
-            standing = standing.after(*stands, (&config, 0.02, step), || true);
-            (standing.steps, standing.undisturbed_steps)
-        });
-        let wanted = [(1, 1), (2, 2), (3, 3), (4, 1), (5, 2), (6, 3), (7, 1), (0, 0)];
-        assert_eq!(times.collect::<Vec<_>>(), wanted);
+        let stood = Standing { steps: 7, undisturbed_steps: 4 };
+        let times = |standing: Standing| (standing.steps, standing.undisturbed_steps);
+        assert_eq!(times(stood.after(true, false)), (8, 5));
+        assert_eq!(times(stood.after(true, true)), (8, 1));
+        assert_eq!(times(stood.after(false, false)), (0, 0));
         let upright = BaseMotion::new(&[0.0, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0], 0.0);
         // 1 rad/s is more than 0.6 · 1.5 rad/s.
         assert!(is_disturbed(&upright, true) && !is_disturbed(&upright, false));
         let half = 0.3_f64.asin() / 2.0;
         let tilted = BaseMotion::new(&[0.0, 0.0, 0.8, half.cos(), half.sin(), 0.0, 0.0], &[0.0; 6], 0.0);
         assert!(is_disturbed(&tilted, false));
-    }
-
-    #[test]
-    fn the_gait_ends_at_the_next_landing() {
-        let config = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.5, ..VelocityConfig::default() };
-        // Of a gait of 0.8 s, feet land every 20 steps of 0.02 s. The command to stand comes with observation 13.
-        let first = |config: &VelocityConfig| {
-            (13..200).find(|step| Standing { steps: step - 12, undisturbed_steps: 0 }.is_to_rest(config, 0.02, *step))
-        };
-        assert_eq!(first(&config), Some(40), "at 0.8 s, the first landing after 0.26 s + 0.5 s");
-        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.54, ..config.clone() }), Some(40));
-        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.56, ..config.clone() }), Some(60));
-        assert_eq!(first(&VelocityConfig { gait_rests_after_s: 0.0, ..config.clone() }), Some(13));
-        assert_eq!(first(&VelocityConfig { gait_rests: false, ..config }), None);
     }
 
     #[test]

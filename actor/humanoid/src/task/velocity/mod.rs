@@ -213,9 +213,9 @@ impl VelocityTask {
         self.drawn_left_steps = self.drawn.steps;
     }
 
-    /// Returns whether the robot's gait is to rest.
-    fn is_to_rest(&self) -> bool {
-        self.standing.is_to_rest(&self.config, self.step_s, self.episode_steps)
+    /// Returns whether the policy sees no phase of the gait.
+    fn hides_phase(&self) -> bool {
+        self.command.stands() && self.standing.rests(&self.config, self.step_s)
     }
 
     fn time_s(&self) -> f64 {
@@ -339,11 +339,10 @@ impl Task for VelocityTask {
         seen.copy_from_slice(&self.past);
         if !is_again {
             seen.rotate_left(width);
-            let times = (&self.config, self.step_s, self.episode_steps);
-            let disturbed = || is_disturbed(&self.base(physics), self.in_training);
-            self.standing = self.standing.after(self.command.stands(), times, disturbed);
+            let is_disturbed = self.hides_phase() && is_disturbed(&self.base(physics), self.in_training);
+            self.standing = self.standing.after(self.command.stands(), is_disturbed);
         }
-        self.observed = (self.command, self.is_to_rest());
+        self.observed = (self.command, self.standing.is_to_rest(&self.config, self.step_s));
         self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {

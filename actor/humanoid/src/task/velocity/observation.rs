@@ -142,8 +142,7 @@ pub const TERMS: &[TermRow] = &[
     .with_mjlab_name("actions"),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
-        let VelocityTask { command, standing, config, step_s, episode_steps, .. } = view.task;
-        let (sin, cos) = match command.stands() && standing.rests(config, *step_s, *episode_steps) {
+        let (sin, cos) = match view.task.hides_phase() {
             true => (0.0, 0.0),
             false => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
         };

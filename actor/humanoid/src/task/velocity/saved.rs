@@ -61,7 +61,7 @@ impl VelocityTask {
         self.rates_before_radps.copy_from_slice(of_rates);
         self.command =
             Command { lin_vel_x_mps: of_command[0], lin_vel_y_mps: of_command[1], ang_vel_z_radps: of_command[2] };
-        self.observed = (self.command, self.is_to_rest());
+        self.observed = (self.command, self.standing.is_to_rest(&self.config, self.step_s));
         self.past.iter_mut().zip(of_past).for_each(|(number, saved)| *number = *saved as f32);
         self.observed_step = Some(self.episode_steps);
         Ok(())
