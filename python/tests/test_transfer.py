@@ -7,7 +7,6 @@ import math
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -30,16 +29,12 @@ from treadmill_transfer.play import play_episode, summary
 from treadmill_transfer.robot import Robot, heading_velocity
 from treadmill_transfer.trace import TOLERANCES, compare
 
-from transfer_samples import FLOOR, ROBOT, WIDTH, contract, network
+from transfer_samples import FLOOR, ROBOT, RobotCase, WIDTH, contract, network
 
 
-class TransferTest(unittest.TestCase):
+class TransferTest(RobotCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.model = self.folder / "robot.xml"
-        self.model.write_text(ROBOT.replace("FLOOR", FLOOR))
+        super().setUp()
         # The newest frame's command moves the arms: x the first joint, y the second.
         self.onnx = network(str(self.folder / "policy.onnx"), [(WIDTH + 6, 0, 1.0), (WIDTH + 7, 1, -50.0)])
 

@@ -2,9 +2,7 @@
 
 import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
 
@@ -17,16 +15,10 @@ except ImportError as why:
 from treadmill_transfer.contract import TransferError, read_contract
 from treadmill_transfer.robot import Robot, read_model, substeps
 
-from transfer_samples import FLOOR, ROBOT, contract
+from transfer_samples import FLOOR, ROBOT, RobotCase, contract
 
 
-class RobotTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.model = Path(folder.name) / "robot.xml"
-        self.model.write_text(ROBOT.replace("FLOOR", FLOOR))
-
+class RobotTest(RobotCase):
     def test_servos_are_those_of_the_contract(self):
         robot = Robot(self.model, read_contract(json.dumps(contract())))
         model = robot.model

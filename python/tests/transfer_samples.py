@@ -1,6 +1,9 @@
 """A small robot, its contract and a network whose action is known, for the tests of the player."""
 
 import json
+import tempfile
+import unittest
+from pathlib import Path
 
 import numpy
 import onnx
@@ -113,3 +116,14 @@ def network(path, terms, metadata=None):
     onnx.helper.set_model_props(model, entries)
     onnx.save(model, path)
     return path
+
+
+class RobotCase(unittest.TestCase):
+    """A test with a folder that has the robot's file."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.model = self.folder / "robot.xml"
+        self.model.write_text(ROBOT.replace("FLOOR", FLOOR))

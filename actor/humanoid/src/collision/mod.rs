@@ -57,8 +57,7 @@ pub(crate) struct Collisions<S: Simd> {
     queries: Queries,
 }
 
-/// By how much the distance of two axes may be too large (m): nearly parallel ones of half a metre lose 0.1 mm in single
-/// precision.
+/// By how much single precision may overestimate the distance of two axes (m), above all of nearly parallel ones.
 const ROUNDING_M: f64 = 2e-4;
 
 /// Gap of a contact in the lanes where it does not exist (m).

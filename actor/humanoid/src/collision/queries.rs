@@ -260,17 +260,8 @@ fn forget(manifold: &mut ContactManifold<(), ()>) {
     (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
 }
 
-/// Returns how deep the second shape at a place is in the first one (m); none if they do not touch.
-#[cfg(test)]
-pub(super) fn overlap_m(one: &ShapeNode, other: &ShapeNode, place: &nalgebra::Isometry3<f64>) -> Option<f64> {
-    let pose = to_pose(place.rotation.to_rotation_matrix().matrix(), &place.translation.vector) * other.offset;
-    let mut points = Points { candidates: Vec::new(), margin_m: 0.0 };
-    Queries::default().touch([&one.offset, &pose], [one, other], 0.0, &mut points);
-    points.candidates.iter().map(|point| -point.gap_m).reduce(f64::max)
-}
-
-/// Returns the width of the empty slab between two convex shapes across the line of their closest points (m); none if there
-/// is none.
+/// Returns the width of the empty slab between two convex shapes across the line of their closest points (m), if a slab
+/// separates them.
 fn slab_m(poses: [&Pose; 2], shapes: [&dyn Shape; 2]) -> Option<f32> {
     let Ok(ClosestPoints::WithinMargin(near, far)) = closest_points(poses[0], shapes[0], poses[1], shapes[1], REACH_M)
     else {
@@ -281,6 +272,15 @@ fn slab_m(poses: [&Pose; 2], shapes: [&dyn Shape; 2]) -> Option<f32> {
     let start_m = one.support_point(poses[0], along).dot(along);
     let end_m = other.support_point(poses[1], -along).dot(along);
     (end_m > start_m).then_some(end_m - start_m)
+}
+
+/// Returns how deep the second shape at a place is in the first one (m); none if they do not touch.
+#[cfg(test)]
+pub(super) fn overlap_m(one: &ShapeNode, other: &ShapeNode, place: &nalgebra::Isometry3<f64>) -> Option<f64> {
+    let pose = to_pose(place.rotation.to_rotation_matrix().matrix(), &place.translation.vector) * other.offset;
+    let mut points = Points { candidates: Vec::new(), margin_m: 0.0 };
+    Queries::default().touch([&one.offset, &pose], [one, other], 0.0, &mut points);
+    points.candidates.iter().map(|point| -point.gap_m).reduce(f64::max)
 }
 
 /// Returns the width of the slab between a shape and a second one at a place (m).

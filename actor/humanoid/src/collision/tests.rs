@@ -79,7 +79,7 @@ proptest! {
 
 proptest! {
     #[test]
-    fn axes_are_not_much_nearer_than_in_double_precision(
+    fn distances_of_axes_are_hardly_overestimated(
         one in numbers(), other in numbers(), offset in numbers(), sizes in prop::array::uniform3(-7i32..0), parallel in any::<bool>()
     ) {
         let [one, other, offset] = [(one, sizes[0]), (other, sizes[1]), (offset, 0)].map(|(vector, size)| vector * 2f64.powi(size));

@@ -12,6 +12,11 @@ fn parts(endpoint: &str) -> Option<(&str, &str, &str)> {
     Some((protocol, host, port))
 }
 
+/// Returns the ports of endpoints.
+pub fn ports(endpoints: &[String]) -> impl Iterator<Item = u16> {
+    endpoints.iter().filter_map(|endpoint| parts(endpoint)?.2.parse().ok())
+}
+
 fn ip(host: &str) -> Option<IpAddr> {
     host.trim_matches(['[', ']']).parse().ok()
 }
@@ -61,7 +66,7 @@ pub fn with_ports(endpoints: &[String], locators: &[String]) -> Result<Vec<Strin
 mod tests {
     use super::*;
 
-    fn ports(endpoints: &[&str], locators: &[&str]) -> Result<Vec<String>, BusError> {
+    fn found(endpoints: &[&str], locators: &[&str]) -> Result<Vec<String>, BusError> {
         let owned = |texts: &[&str]| texts.iter().map(ToString::to_string).collect::<Vec<_>>();
         with_ports(&owned(endpoints), &owned(locators))
     }
@@ -76,23 +81,24 @@ mod tests {
             "tls/localhost:0#tls_handshake_timeout_ms=5",
             "tcp/127.0.0.1:0",
         ];
-        let mut found = ports(&endpoints, &locators).unwrap();
+        assert_eq!(ports(&["tls/localhost:42#tls_handshake_timeout_ms=5".to_string()]).collect::<Vec<_>>(), [42]);
+        let mut given = found(&endpoints, &locators).unwrap();
         let rest = ["tcp/127.0.0.1:7447", "tcp/[::1]:41", "tls/localhost:42#tls_handshake_timeout_ms=5"];
-        assert_eq!(found[1..4], rest);
-        found.retain(|endpoint| !rest.contains(&endpoint.as_str()));
-        found.sort();
-        assert_eq!(found, ["tcp/127.0.0.1:43", "tcp/127.0.0.1:44"]);
+        assert_eq!(given[1..4], rest);
+        given.retain(|endpoint| !rest.contains(&endpoint.as_str()));
+        given.sort();
+        assert_eq!(given, ["tcp/127.0.0.1:43", "tcp/127.0.0.1:44"]);
     }
 
     #[test]
     fn all_addresses_of_the_machine_share_a_port() {
         let locators = ["tcp/10.0.0.1:41", "tcp/10.0.0.2:41", "tcp/127.0.0.1:42"];
         let wanted = ["tcp/0.0.0.0:41", "tcp/127.0.0.1:42"];
-        assert_eq!(ports(&["tcp/0.0.0.0:0", "tcp/127.0.0.1:0"], &locators).unwrap(), wanted);
+        assert_eq!(found(&["tcp/0.0.0.0:0", "tcp/127.0.0.1:0"], &locators).unwrap(), wanted);
         let wanted = ["tcp/localhost:42", "tcp/0.0.0.0:41"];
-        assert_eq!(ports(&["tcp/localhost:0", "tcp/0.0.0.0:0"], &locators).unwrap(), wanted);
-        assert_eq!(ports(&["tcp/[::]:0"], &["tcp/10.0.0.1:41"]).unwrap(), ["tcp/[::]:41"]);
-        let why = ports(&["tcp/127.0.0.1:0", "tcp/0.0.0.0:0"], &["tcp/127.0.0.1:42"]).unwrap_err().to_string();
+        assert_eq!(found(&["tcp/localhost:0", "tcp/0.0.0.0:0"], &locators).unwrap(), wanted);
+        assert_eq!(found(&["tcp/[::]:0"], &["tcp/10.0.0.1:41"]).unwrap(), ["tcp/[::]:41"]);
+        let why = found(&["tcp/127.0.0.1:0", "tcp/0.0.0.0:0"], &["tcp/127.0.0.1:42"]).unwrap_err().to_string();
         assert!(why.contains("tcp/0.0.0.0:0") && why.contains("give it a port"), "{why}");
     }
 }

@@ -139,7 +139,7 @@ impl Bus {
         let bus = Self::open(settings)?;
         let locators: Vec<String> = bus.session.info().locators().wait().iter().map(ToString::to_string).collect();
         let listen = listening::with_ports(&options.listen, &locators)?;
-        closed_peers::listen_on(&listen);
+        closed_peers::listen_on(listening::ports(&listen));
         if !options.connect.is_empty() {
             redial_pause::install(&bus.session, &listen)?;
         }
