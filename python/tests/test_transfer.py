@@ -79,6 +79,21 @@ class TransferTest(RobotCase):
             controller.taken(numpy.zeros(2))
         self.assertEqual(shown, [True, True, False, False, True, True])
 
+    def test_a_push_wakes_a_gait_at_rest(self):
+        policy = Policy(self.onnx)
+        contract = policy.contract
+        contract.gait_rests_below, contract.gait_rests_after_s = 0.1, 0.04
+        contract.gait_rests_rate_radps, contract.gait_rests_settled_s, contract.gait_rests_settled_rate_radps = 1.5, 0.1, 0.3
+        robot, controller = Robot(self.model, contract), Controller(policy)
+        robot.reset()
+        shown = []
+        # It rests from the third step on, and is settled from the eighth on.
+        for rate_radps in [0.0, 0.0, 1.4, 1.4, 1.6, 0.0, 0.0, 0.0, 0.29, 0.29, 0.29, 0.29, 0.29, 0.29, 0.31, 0.0, 0.0]:
+            robot.set_state(numpy.array([0, 0, 1, 1, 0, 0, 0, 0, 0, 0]), numpy.array([0, 0, 0, rate_radps, 0, 0, 0, 0, 0]))
+            shown.append(bool(controller.observe(robot, numpy.zeros(3))[-2:].any()))
+            controller.taken(numpy.zeros(2))
+        self.assertEqual("".join("s" if phase else "-" for phase in shown), "ss--ss-------" + "-ss-")
+
     def test_velocity_is_seen_in_the_heading_frame(self):
         cos, sin = math.cos(0.3), math.sin(0.3)
         # Turned left by 90°, then pitched about its own left by 0.3.

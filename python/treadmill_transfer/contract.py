@@ -49,8 +49,9 @@ class Contract:
     gait_period_s: float
     gait_rests_below: float
     gait_rests_after_s: float
-    gait_rests_tilt: float
     gait_rests_rate_radps: float
+    gait_rests_settled_s: float
+    gait_rests_settled_rate_radps: float
     ranges: numpy.ndarray
     resampling_s: tuple
     standing_share: float
@@ -157,8 +158,9 @@ def read_contract(text):
         # Files of older versions have a gait that never rests.
         gait_rests_below=fields.number("gait_rests_below") if "gait_rests_below" in whole else 0.0,
         gait_rests_after_s=fields.number("gait_rests_after_s") if "gait_rests_after_s" in whole else 0.0,
-        gait_rests_tilt=fields.number("gait_rests_tilt") if "gait_rests_tilt" in whole else math.inf,
         gait_rests_rate_radps=fields.number("gait_rests_rate_radps") if "gait_rests_rate_radps" in whole else math.inf,
+        gait_rests_settled_s=fields.number("gait_rests_settled_s") if "gait_rests_settled_s" in whole else math.inf,
+        gait_rests_settled_rate_radps=fields.number("gait_rests_settled_rate_radps") if "gait_rests_settled_s" in whole else math.inf,
         ranges=numpy.array([commands.numbers(name, 2) for name in ("lin_vel_x_mps", "lin_vel_y_mps", "ang_vel_z_radps")]),
         resampling_s=tuple(commands.numbers("resampling_s", 2)),
         standing_share=commands.number("standing_share"),

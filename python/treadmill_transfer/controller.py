@@ -27,7 +27,8 @@ class Controller:
     def observe(self, robot, command):
         """Returns the whole observation of the present state; once per control step."""
         contract, stands = self.contract, numpy.linalg.norm(command) < self.contract.gait_rests_below
-        is_disturbed = contract.gait_rests_after_s > 0.0 and rests(contract, self.standing_steps) and not is_calm(contract, robot)
+        rested = rested_s(contract, self.standing_steps)
+        is_disturbed = rested is not None and not is_calm(contract, robot, rested)
         self.standing_steps = (0 if is_disturbed else self.standing_steps) + 1 if stands else 0
         frame = numpy.concatenate([_TERMS[name](self, robot, command) for name, _ in self.contract.observation])
         if self._frames is None:
@@ -64,20 +65,24 @@ class Controller:
         return f"{name}[{part}]" + (f", {age} frames ago" if age else "")
 
 
-def is_calm(contract, robot):
-    """Returns whether a robot at rest is not disturbed."""
-    is_upright = numpy.linalg.norm(robot.rotation[2, :2]) < contract.gait_rests_tilt
-    return is_upright and numpy.linalg.norm(robot.angular_radps) < contract.gait_rests_rate_radps
+def is_calm(contract, robot, rested):
+    """Returns whether a robot is not disturbed after so many seconds at rest."""
+    is_settled = rested >= contract.gait_rests_settled_s
+    limit_radps = contract.gait_rests_settled_rate_radps if is_settled else contract.gait_rests_rate_radps
+    return numpy.linalg.norm(robot.angular_radps) <= limit_radps
 
 
-def rests(contract, standing_steps):
-    """Returns whether the gait rests after so many control steps, with the present one, under a command to stand."""
-    return standing_steps > 0 and (standing_steps - 1) * contract.control_step_s >= contract.gait_rests_after_s
+def rested_s(contract, standing_steps):
+    """Returns for how long the gait has rested after so many control steps under a command to stand; None if it does not."""
+    if standing_steps == 0:
+        return None
+    rested = (standing_steps - 1) * contract.control_step_s - contract.gait_rests_after_s
+    return rested if rested >= 0.0 else None
 
 
 def phase(contract, steps, standing_steps):
     """Returns sine and cosine of the gait's phase after so many control steps; zeros where the gait rests."""
-    if rests(contract, standing_steps):
+    if rested_s(contract, standing_steps) is not None:
         return numpy.zeros(2)
     angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
     return numpy.array([math.sin(angle), math.cos(angle)])

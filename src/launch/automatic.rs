@@ -5,15 +5,14 @@
 //! and heights with L. The reward's weights scale so that each term keeps its share.
 
 use toml::Value;
-use treadmill_config::{RewardsConfig, VelocityConfig};
+use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::card::BodySize;
+
+use crate::launch::run_args::OF_ANY_ROBOT;
 
 /// Leg length and weight of a G1 with its card, for which the defaults are made.
 const LEG_LENGTH_M: f64 = 0.657;
 const WEIGHT_N: f64 = 327.0;
-
-/// Smallest and largest push of a G1, as in its preset (m/s).
-const PUSH_MPS: [f64; 2] = [0.0, 0.5];
 
 /// Returns the keys of a robot of this size; without one, those of a G1.
 pub fn keys(size: Option<BodySize>) -> Vec<(&'static str, Value)> {
@@ -21,7 +20,7 @@ pub fn keys(size: Option<BodySize>) -> Vec<(&'static str, Value)> {
     let length = size.leg_length_m / LEG_LENGTH_M;
     let torque = length * size.weight_n / WEIGHT_N;
     let speed = length.sqrt();
-    let (velocity, rewards) = (VelocityConfig::default(), RewardsConfig::default());
+    let Config { velocity, rewards, randomisation, .. } = of_a_g1();
     let range = |range: [f64; 2], factor: f64| Value::from(range.map(|end| short(end * factor)).to_vec());
     let number = |number: f64| Value::from(short(number));
     vec![
@@ -29,6 +28,7 @@ pub fn keys(size: Option<BodySize>) -> Vec<(&'static str, Value)> {
         ("velocity.lin_vel_y_mps", range(velocity.lin_vel_y_mps, speed)),
         ("velocity.ang_vel_z_radps", range(velocity.ang_vel_z_radps, 1.0 / speed)),
         ("velocity.gait_period_s", number(velocity.gait_period_s * speed)),
+        ("velocity.gait_rests_after_s", number(velocity.gait_rests_after_s * speed)),
         ("velocity.swing_height_m", number(velocity.swing_height_m * length)),
         ("velocity.tracking_variance", number(velocity.tracking_variance * length)),
         ("velocity.yaw_tracking_variance", number(velocity.yaw_tracking_variance / length)),
@@ -36,13 +36,20 @@ pub fn keys(size: Option<BodySize>) -> Vec<(&'static str, Value)> {
         ("rewards.vertical_velocity", number(rewards.vertical_velocity / length)),
         ("rewards.roll_pitch_rate", number(rewards.roll_pitch_rate * length)),
         ("rewards.feet_clearance", number(rewards.feet_clearance / length.powi(2))),
+        ("rewards.stand_still", number(rewards.stand_still * length)),
         ("rewards.feet_slip", number(rewards.feet_slip / length)),
         // A change per control step, whose duration does not scale.
         ("rewards.action_rate", number(rewards.action_rate * length)),
         ("rewards.joint_torque", number(rewards.joint_torque / torque.powi(2))),
         ("rewards.joint_acceleration", number(rewards.joint_acceleration * length.powi(2))),
-        ("randomisation.push_mps", range(PUSH_MPS, speed)),
+        ("randomisation.push_mps", range(randomisation.push_mps, speed)),
     ]
+}
+
+/// Returns the preset, which has the keys of a G1.
+fn of_a_g1() -> Config {
+    let mut source = ConfigSource::default();
+    source.preset(OF_ANY_ROBOT).and_then(|()| source.build()).expect("the preset is valid")
 }
 
 /// Returns a number with three digits, so that a configuration is easy to read.
@@ -52,8 +59,6 @@ fn short(number: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use treadmill_config::ConfigSource;
-
     use super::*;
 
     #[test]
@@ -65,6 +70,7 @@ mod tests {
             ("velocity.lin_vel_x_mps", "[-0.25, 0.5]"),
             ("velocity.ang_vel_z_radps", "[-1.0, 1.0]"),
             ("velocity.gait_period_s", "0.4"),
+            ("velocity.gait_rests_after_s", "0.5"),
             ("velocity.swing_height_m", "0.02"),
             ("velocity.tracking_variance", "0.025"),
             ("velocity.yaw_tracking_variance", "0.4"),

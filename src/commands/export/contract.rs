@@ -7,8 +7,7 @@ use treadmill_humanoid::{
     config::ChosenTask,
     model::{HingeControl, Robot},
     task::velocity::{
-        ACTION_MAX, CALM_RATE_RADPS, CALM_TILT, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND,
-        TERMS, TermRow,
+        ACTION_MAX, Calm, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
     },
 };
 use treadmill_policy::onnx::ForController;
@@ -141,6 +140,7 @@ impl Contract {
     /// Returns the whole contract.
     fn json(&self) -> Value {
         let EnvironmentConfig { env, velocity, randomisation, .. } = &self.config;
+        let calm = Calm::of(velocity);
         let mut contract = lists(&self.joints);
         contract["action_scale"] = self.joints.iter().map(|joint| joint.action_scale_rad).collect();
         let terms: Vec<Value> = self
@@ -175,11 +175,12 @@ impl Contract {
             ("gait_period_s", json!(velocity.gait_period_s)),
             // Norm of the command below which the phase is (0, 0).
             ("gait_rests_below", json!(if velocity.gait_rests { STANDING_COMMAND } else { 0.0 })),
-            // Time for which it must have been below, and for which the phase comes back when tilt (horizontal part of
-            // gravity) or angular velocity exceed these.
+            // Time for which it must have been below, and for which the phase comes back when the base turns faster than
+            // this; after some time at rest a slower turn is enough.
             ("gait_rests_after_s", json!(velocity.gait_rests_after_s)),
-            ("gait_rests_tilt", json!(CALM_TILT)),
-            ("gait_rests_rate_radps", json!(CALM_RATE_RADPS)),
+            ("gait_rests_rate_radps", json!(calm.rate_radps)),
+            ("gait_rests_settled_s", json!(calm.settled_s)),
+            ("gait_rests_settled_rate_radps", json!(calm.settled_rate_radps)),
             (
                 "height_scan",
                 json!({

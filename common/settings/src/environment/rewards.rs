@@ -54,8 +54,8 @@ rewards! {
     vertical_velocity = -0.5;
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate = -0.05;
-    /// Share of the feet that stand or swing as the gait says, less the share of the others. With `velocity.gait_rests`, a
-    /// robot whose gait is to rest earns nothing until it can come to rest without a step.
+    /// Share of the feet that stand or swing as the gait says, less the share of the others. A robot whose gait rests is to
+    /// stand on both, and earns nothing until it can come to rest without a step.
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;
@@ -68,7 +68,8 @@ rewards! {
     landing = 0.0;
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
     pose = -0.5;
-    /// Squared rates of the hinges (rad²/s²), while the robot is to stand, and is slow and upright.
+    /// Squared rates of the hinges (rad²/s²), while the command says: stand; without `velocity.gait_rests` only while the
+    /// robot is slow and upright, too.
     stand_still = 0.0;
     /// Squared change of the action from step to step, in units of the action.
     action_rate = -0.01;

@@ -24,7 +24,7 @@ section! {
         /// Whether the gait rests while the command says: stand. The policy then sees the phase (0, 0).
         gait_rests: bool = false, "true or false" => |_| true;
         /// Time after a command to stand for which the phase goes on before the gait rests, in seconds. It goes on for as
-        /// long when the robot is disturbed at rest. 0 means at once and whatever happens, as in unitree_rl_mjlab.
+        /// long when the robot is pushed or tips over at rest. 0 means at once and whatever happens, as in unitree_rl_mjlab.
         gait_rests_after_s: f64 = 0.0, "0 to 10" => |v| (0.0..=10.0).contains(v);
         /// Height to which a swinging foot is lifted, in metres, above the highest ground within 0.2 m of it.
         swing_height_m: f64 = 0.08, "0 to 1" => |v| (0.0..=1.0).contains(v);

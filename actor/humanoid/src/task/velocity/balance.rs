@@ -11,53 +11,68 @@ use super::feet::{FEET, Foot};
 use super::rewards::BaseMotion;
 use crate::config::VelocityConfig;
 use crate::physics::Physics;
+use crate::randomisation::{stream, uniform};
 
 /// Acceleration of gravity (m/s²).
 const GRAVITY_MPS2: f64 = 9.81;
 
-/// Horizontal part of gravity's direction in the frame of the base, below which a robot at rest is calm.
-pub const CALM_TILT: f64 = 0.2;
-/// Angular velocity of the base below which it is calm (rad/s).
-pub const CALM_RATE_RADPS: f64 = 1.5;
+/// Shares of the bounds of [`Calm`], one of which holds for an episode of training. With bounds that never change, policies
+/// learn to rest just within them, and fall beside them.
+const SHARES_IN_TRAINING: [f64; 2] = [0.5, 1.5];
 
-/// Share of both that disturbs a robot in training. Those that trained with all of it rested less upright, and fell 20 times
-/// of 100 instead of once.
-const SHARE_IN_TRAINING: f64 = 0.6;
+/// When a robot whose gait rests is calm, by what its inertial sensor measures. A push, or a stop that tips it over, wakes
+/// its gait: from a rest, policies hardly learn to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Calm {
+    /// Largest angular velocity of the base (rad/s).
+    pub rate_radps: f64,
+    /// Time at rest after which its steps have died away (s).
+    pub settled_s: f64,
+    /// Largest angular velocity from then on (rad/s).
+    pub settled_rate_radps: f64,
+}
 
-/// How long a robot has been asked to stand, in observations with the last one.
+impl Calm {
+    /// Returns the bounds for a gait, whose period is the robot's unit of time.
+    #[must_use]
+    pub fn of(config: &VelocityConfig) -> Self {
+        let per_period = |turn_rad: f64| turn_rad / config.gait_period_s;
+        Self { rate_radps: per_period(1.6), settled_s: config.gait_period_s, settled_rate_radps: per_period(0.24) }
+    }
+
+    /// Returns the bounds in an episode of training with this seed.
+    pub fn in_training(self, seed: u64) -> Self {
+        let share = uniform(&mut stream(seed, "calm"), SHARES_IN_TRAINING);
+        let [rate_radps, settled_rate_radps] = [self.rate_radps, self.settled_rate_radps].map(|bound| share * bound);
+        Self { rate_radps, settled_rate_radps, ..self }
+    }
+
+    /// Returns whether a robot is disturbed after so long at rest.
+    pub fn is_disturbed(&self, base: &BaseMotion, rested_s: f64) -> bool {
+        let rate_radps = if rested_s < self.settled_s { self.rate_radps } else { self.settled_rate_radps };
+        base.angular_radps.norm() > rate_radps
+    }
+}
+
+/// How long a robot has been asked to stand.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Standing {
-    /// Since the command says so.
+    /// Observations since then, or since the last disturbance at rest, with the present one.
     pub steps: u32,
-    /// Since then, and since the last disturbance at rest.
-    pub undisturbed_steps: u32,
 }
 
 impl Standing {
-    /// Returns the times with another observation.
+    /// Returns the time with another observation.
     pub fn after(self, stands: bool, is_disturbed: bool) -> Self {
-        let next = |steps: u32| if stands { steps.saturating_add(1) } else { 0 };
-        let undisturbed = if is_disturbed { 0 } else { self.undisturbed_steps };
-        Self { steps: next(self.steps), undisturbed_steps: next(undisturbed) }
+        let steps = if is_disturbed { 0 } else { self.steps };
+        Self { steps: if stands { steps.saturating_add(1) } else { 0 } }
     }
 
-    /// Returns whether the robot should rest by now.
-    pub fn is_to_rest(&self, config: &VelocityConfig, step_s: f64) -> bool {
-        let stood_s = f64::from(self.steps.saturating_sub(1)) * step_s;
-        config.gait_rests && self.steps > 0 && stood_s >= config.gait_rests_after_s
+    /// Returns how long its gait has rested (s); `None` if it does not.
+    pub fn rested_s(self, config: &VelocityConfig, step_s: f64) -> Option<f64> {
+        let rested_s = f64::from(self.steps.checked_sub(1)?) * step_s - config.gait_rests_after_s;
+        (config.gait_rests && rested_s >= 0.0).then_some(rested_s)
     }
-
-    /// Returns whether its gait rests: it should, and the robot is not disturbed.
-    pub fn rests(&self, config: &VelocityConfig, step_s: f64) -> bool {
-        Self { steps: self.undisturbed_steps, ..*self }.is_to_rest(config, step_s)
-    }
-}
-
-/// Returns whether a robot is disturbed by what its inertial sensor measures. A push, or a stop that tips it over, wakes its
-/// gait: from a rest, policies hardly learn to step.
-pub fn is_disturbed(base: &BaseMotion, in_training: bool) -> bool {
-    let share = if in_training { SHARE_IN_TRAINING } else { 1.0 };
-    base.gravity.xy().norm() > share * CALM_TILT || base.angular_radps.norm() > share * CALM_RATE_RADPS
 }
 
 /// Returns the capture point, relative to the middle of the two feet, in the heading frame: forward and left (m).
@@ -89,17 +104,34 @@ mod tests {
 
     #[test]
     fn a_disturbance_begins_the_time_at_rest_anew() {
-        let stood = Standing { steps: 7, undisturbed_steps: 4 };
-        let times = |standing: Standing| (standing.steps, standing.undisturbed_steps);
-        assert_eq!(times(stood.after(true, false)), (8, 5));
-        assert_eq!(times(stood.after(true, true)), (8, 1));
-        assert_eq!(times(stood.after(false, false)), (0, 0));
-        let upright = BaseMotion::new(&[0.0, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0], 0.0);
-        // 1 rad/s is more than 0.6 · 1.5 rad/s.
-        assert!(is_disturbed(&upright, true) && !is_disturbed(&upright, false));
-        let half = 0.3_f64.asin() / 2.0;
-        let tilted = BaseMotion::new(&[0.0, 0.0, 0.8, half.cos(), half.sin(), 0.0, 0.0], &[0.0; 6], 0.0);
-        assert!(is_disturbed(&tilted, false));
+        let config = VelocityConfig { gait_rests: true, gait_rests_after_s: 0.04, ..VelocityConfig::default() };
+        let standing = |steps: u32| Standing { steps };
+        assert_eq!(
+            [(true, false), (true, true), (false, false)].map(|(s, d)| standing(4).after(s, d).steps),
+            [5, 1, 0]
+        );
+        assert_eq!(
+            [0, 2, 3, 5].map(|steps| standing(steps).rested_s(&config, 0.02)),
+            [None, None, Some(0.0), Some(0.04)]
+        );
+        assert_eq!(standing(5).rested_s(&VelocityConfig::default(), 0.02), None);
+    }
+
+    #[test]
+    fn a_turn_disturbs_and_once_settled_a_slower_one() {
+        // A period of 0.8 s: 2 rad/s, and 0.3 rad/s from then on.
+        let calm = Calm::of(&VelocityConfig::default());
+        let is_disturbed = |rate_radps: f64, rested_s: f64| {
+            let velocity = [0.0, 0.0, 0.0, 0.8 * rate_radps, -0.6 * rate_radps, 0.0];
+            calm.is_disturbed(&BaseMotion::new(&[0.0, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0], &velocity, 0.0), rested_s)
+        };
+        assert!(!is_disturbed(1.99, 0.0) && !is_disturbed(1.99, 0.79) && is_disturbed(2.01, 0.79));
+        assert!(!is_disturbed(0.29, 0.81) && is_disturbed(0.31, 0.81));
+        let shares: Vec<f64> = (0..100).map(|seed| calm.in_training(seed).rate_radps / calm.rate_radps).collect();
+        assert!(shares.iter().all(|share| (0.5..=1.5).contains(share)));
+        assert!(shares.iter().any(|share| *share < 0.6) && shares.iter().any(|share| *share > 1.4));
+        let changed = calm.in_training(3);
+        assert!((changed.settled_rate_radps / calm.settled_rate_radps - shares[3]).abs() < 1e-12);
     }
 
     #[test]

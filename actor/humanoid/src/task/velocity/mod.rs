@@ -26,8 +26,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use rand::RngExt;
 
-pub use self::balance::{CALM_RATE_RADPS, CALM_TILT};
-use self::balance::{Standing, capture_point_m, is_disturbed};
+pub use self::balance::Calm;
+use self::balance::{Standing, capture_point_m};
 use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
@@ -80,7 +80,7 @@ pub struct VelocityTask {
     command: Command,
     standing: Standing,
     in_training: bool,
-    /// Command of the last observation, for which the next step is rewarded, and whether the robot was to rest.
+    /// Command of the last observation, for which the next step is rewarded, and whether the gait rested.
     observed: (Command, bool),
     command_changes: u32,
     episode_steps: u32,
@@ -213,9 +213,16 @@ impl VelocityTask {
         self.drawn_left_steps = self.drawn.steps;
     }
 
-    /// Returns whether the policy sees no phase of the gait.
-    fn hides_phase(&self) -> bool {
-        self.command.stands() && self.standing.rests(&self.config, self.step_s)
+    /// Returns how long the gait has rested (s); `None` if it does not, and the policy sees its phase.
+    fn rested_s(&self) -> Option<f64> {
+        self.standing.rested_s(&self.config, self.step_s).filter(|_| self.command.stands())
+    }
+
+    /// Returns whether a robot at rest is disturbed.
+    fn is_disturbed(&self, physics: &Physics) -> bool {
+        let calm = Calm::of(&self.config);
+        let calm = if self.in_training { calm.in_training(self.seed) } else { calm };
+        self.rested_s().is_some_and(|rested_s| calm.is_disturbed(&self.base(physics), rested_s))
     }
 
     fn time_s(&self) -> f64 {
@@ -286,7 +293,7 @@ impl Task for VelocityTask {
             torques_nm: physics.joint_torques_nm(),
             actions: [&self.actions, &self.actions_before],
         };
-        let (config, step_s, (command, is_to_rest)) = (&self.config, self.step_s, self.observed);
+        let (config, step_s, (command, rests)) = (&self.config, self.step_s, self.observed);
         let has_fallen =
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         let moved = RobotStep {
@@ -294,7 +301,7 @@ impl Task for VelocityTask {
             model: physics.model(),
             body: &self.body,
             command,
-            is_to_rest,
+            rests,
             base,
             feet: &self.feet,
             capture_point_m: capture_point_m(physics, self.feet_links, base.heading_rad),
@@ -339,10 +346,9 @@ impl Task for VelocityTask {
         seen.copy_from_slice(&self.past);
         if !is_again {
             seen.rotate_left(width);
-            let is_disturbed = self.hides_phase() && is_disturbed(&self.base(physics), self.in_training);
-            self.standing = self.standing.after(self.command.stands(), is_disturbed);
+            self.standing = self.standing.after(self.command.stands(), self.is_disturbed(physics));
         }
-        self.observed = (self.command, self.standing.is_to_rest(&self.config, self.step_s));
+        self.observed = (self.command, self.rested_s().is_some());
         self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {

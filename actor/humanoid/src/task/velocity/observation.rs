@@ -142,9 +142,9 @@ pub const TERMS: &[TermRow] = &[
     .with_mjlab_name("actions"),
     // Half a period later, each foot does what the other one did.
     TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
-        let (sin, cos) = match view.task.hides_phase() {
-            true => (0.0, 0.0),
-            false => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
+        let (sin, cos) = match view.task.rested_s() {
+            Some(_) => (0.0, 0.0),
+            None => (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos(),
         };
         [sin, cos].into_iter().for_each(write);
     })

@@ -118,8 +118,8 @@ pub struct RobotStep<'a> {
     pub body: &'a Stance,
     /// Command that it followed.
     pub command: Command,
-    /// Whether its gait is to rest.
-    pub is_to_rest: bool,
+    /// Whether its gait rested.
+    pub rests: bool,
     /// Base at its end.
     pub base: BaseMotion,
     /// Feet at its end.
@@ -141,21 +141,23 @@ impl RobotStep<'_> {
         self.feet.iter().enumerate()
     }
 
-    /// Returns what the gait wants of a foot; `None` if the robot is to rest but cannot yet: it steps as it must.
+    /// Returns what the gait wants of a foot; `None` if it rests but the robot cannot yet: it steps as it must.
     fn stride(&self, foot: usize) -> Option<Stride> {
         if self.must_rest() {
             return Some(Stride { stands: true, lift_m: 0.0 });
         }
-        (!self.is_to_rest).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
+        (!self.rests).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
-    /// Returns whether the robot must stand still. One whose gait is to rest steps until it can come to rest without a step:
-    /// feet that stop before that make it tip over them.
+    /// Returns whether the robot must stand still. One whose gait rests steps until it can come to rest without a step: feet
+    /// that stop before that make it tip over them.
     fn must_rest(&self) -> bool {
-        let apart_m = (self.capture_point_m - self.body.capture_point_m).norm();
+        if self.config.gait_rests {
+            let apart_m = (self.capture_point_m - self.body.capture_point_m).norm();
+            return self.rests && apart_m < BALANCED_SHARE * self.body.height_m;
+        }
         let is_slow = self.base.velocity_mps.xy().norm() < SLOW_MPS && self.base.gravity.xy().norm() < UPRIGHT;
-        let may_rest = if self.config.gait_rests { apart_m < BALANCED_SHARE * self.body.height_m } else { is_slow };
-        self.command.stands() && may_rest
+        self.command.stands() && is_slow
     }
 }
 
@@ -226,8 +228,10 @@ impl RewardFunctions for RobotStep<'_> {
         posture.map(|((angle_rad, default_rad), weight)| weight * (angle_rad - default_rad).powi(2)).sum()
     }
 
+    /// At steps, too: without this cost, a robot earns as much by steps on the spot as at rest.
     fn stand_still(&self) -> f64 {
-        if self.must_rest() { self.hinges.rates_radps.iter().map(|rate| rate * rate).sum() } else { 0.0 }
+        let counts = if self.config.gait_rests { self.command.stands() } else { self.must_rest() };
+        if counts { self.hinges.rates_radps.iter().map(|rate| rate * rate).sum() } else { 0.0 }
     }
 
     fn action_rate(&self) -> f64 {

@@ -82,7 +82,7 @@ fn each_term_equals_its_value_by_hand() {
         model: &model,
         body: &body,
         command,
-        is_to_rest: false,
+        rests: false,
         base,
         feet: &feet,
         capture_point_m: Vector2::new(0.02, 0.0481),
@@ -130,9 +130,11 @@ fn each_term_equals_its_value_by_hand() {
     assert_eq!((standing.gait(), standing.feet_air_time()), (1.0, 0.0), "at 0.45 m/s the gait goes on");
     close(standing.feet_clearance(), 0.0025);
     let config = VelocityConfig { gait_rests: true, ..config.clone() };
-    let resting = RobotStep { config: &config, is_to_rest: true, ..standing };
+    let resting = RobotStep { config: &config, rests: true, ..standing };
     assert_eq!((resting.gait(), resting.feet_clearance()), (0.0, 0.0), "it stops as it must, 4.8 cm out of balance");
-    assert_eq!((standing.stand_still(), resting.stand_still()), (0.0, 0.0));
+    assert_eq!((standing.stand_still(), resting.stand_still()), (0.0, 2.0));
+    let awake = RobotStep { capture_point_m: Vector2::zeros(), rests: false, ..resting };
+    assert_eq!((awake.gait(), awake.stand_still()), (1.0, 2.0), "a gait that goes on is rewarded as ever");
     // Less than 6 % of 0.8 m.
     let balanced = RobotStep { capture_point_m: Vector2::new(0.02, 0.0479), ..resting };
     let velocity_mps = Vector3::new(0.1, 0.1, 0.3);

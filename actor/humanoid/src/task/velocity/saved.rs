@@ -9,15 +9,14 @@ use super::curriculum::{CURRICULUM_SAVED, Curriculum};
 use super::feet::FEET;
 use crate::error::StateError;
 
-/// Numbers of the state that do not depend on the robot: command number and steps, control steps of the episode, those of
-/// standing and those without disturbance, and five numbers of each foot.
-const SAVED: usize = 5 + 5 * FEET;
+/// Numbers of the state that do not depend on the robot: command number and steps, control steps of the episode and of
+/// standing, and five numbers of each foot.
+const SAVED: usize = 4 + 5 * FEET;
 
 impl VelocityTask {
     /// See [`crate::task::Task::save`].
     pub(super) fn saved_numbers(&self) -> Vec<f64> {
-        let Standing { steps, undisturbed_steps } = self.standing;
-        let counts = [self.drawn_index, self.drawn_left_steps, self.episode_steps, steps, undisturbed_steps];
+        let counts = [self.drawn_index, self.drawn_left_steps, self.episode_steps, self.standing.steps];
         let mut numbers = counts.map(f64::from).to_vec();
         for foot in &self.feet {
             numbers.push(f64::from(u8::from(foot.stands)));
@@ -48,8 +47,8 @@ impl VelocityTask {
         self.draw(count(numbers[0]));
         self.drawn_left_steps = count(numbers[1]).clamp(1, self.drawn.steps);
         self.episode_steps = count(numbers[2]);
-        self.standing = Standing { steps: count(numbers[3]), undisturbed_steps: count(numbers[4]) };
-        for (foot, saved) in self.feet.iter_mut().zip(numbers[5..SAVED].as_chunks::<5>().0) {
+        self.standing = Standing { steps: count(numbers[3]) };
+        for (foot, saved) in self.feet.iter_mut().zip(numbers[4..SAVED].as_chunks::<5>().0) {
             foot.stands = saved[0] != 0.0;
             foot.air_s = saved[1];
             foot.velocity_mps = Vector3::new(saved[2], saved[3], saved[4]);
@@ -61,7 +60,7 @@ impl VelocityTask {
         self.rates_before_radps.copy_from_slice(of_rates);
         self.command =
             Command { lin_vel_x_mps: of_command[0], lin_vel_y_mps: of_command[1], ang_vel_z_radps: of_command[2] };
-        self.observed = (self.command, self.standing.is_to_rest(&self.config, self.step_s));
+        self.observed = (self.command, self.rested_s().is_some());
         self.past.iter_mut().zip(of_past).for_each(|(number, saved)| *number = *saved as f32);
         self.observed_step = Some(self.episode_steps);
         Ok(())
