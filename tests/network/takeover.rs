@@ -348,6 +348,12 @@ mod s3 {
         }
         let server = Running::start(command);
         await_that("the S3 server", || TcpStream::connect(("127.0.0.1", port)).ok());
+        await_that("a store that keeps its promises", || {
+            let mut check = treadmill(folder.path());
+            environment(&mut check);
+            let checked = check.args(["check", "s3://treadmill/runs/walk"]).output().unwrap();
+            stdout(&checked).contains("refuses writes whose condition does not hold").then_some(())
+        });
         let fleet = Fleet::start("s3://treadmill/runs/walk", folder, environment);
         fleet.leader.signal(libc::SIGKILL);
         fleet.await_takeover();

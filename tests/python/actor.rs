@@ -152,6 +152,48 @@ fn a_python_actor_trains_and_outlives_its_learner() {
 }
 
 #[test]
+fn a_python_actor_goes_on_with_the_standby_that_takes_over() {
+    let Some(mut python) = python("gymnasium, google.protobuf, mujoco, numpy, zenoh") else { return };
+    let (folder, run) = folders();
+    let store = format!("file://{}/store", folder.path().display());
+    let learner = |name: &str, more: &[&str]| {
+        let mut command = treadmill(folder.path());
+        command.args(["learner", "--store", &store, "--listen", "tcp/127.0.0.1:0", "--run-dir", name]).args(more);
+        Running::start(command)
+    };
+    let new = ["--preset", "smoke", "--task", "gymnasium/InvertedPendulum-v5", "--steps", ENDLESS];
+    let leader = learner("run", &new);
+    let listening = |learner: &Running| learner.wait_for("listening ").rsplit(' ').next().unwrap().to_string();
+    let leading = listening(&leader);
+    let standby = learner("second", &["--standby", "--connect", &leading]);
+    let (second, following) = (folder.path().join("second"), listening(&standby));
+    python.args([
+        "-m",
+        "treadmill_actor",
+        "--env",
+        "InvertedPendulum-v5",
+        "--run",
+        "run",
+        "--envs",
+        "4",
+        "--seed",
+        "1",
+    ]);
+    python.args(["--connect", &leading, "--connect", &following]);
+    let actor = Running::start(python);
+    await_steps(&run, 2048);
+    standby.wait_for("run `run` is at");
+    let reached = last_step(&run);
+    leader.signal(libc::SIGKILL);
+    standby.wait_for("taking over");
+    await_steps(&second, reached + 2048);
+    assert_eq!(last_value(&second, "bus/fragments_malformed"), Some(0.0));
+    actor.signal(libc::SIGINT);
+    let (status, lines) = actor.wait();
+    assert!(status.success(), "{lines:#?}");
+}
+
+#[test]
 fn a_python_actor_of_another_task_is_refused_by_name() {
     let Some(mut python) = python("gymnasium, google.protobuf, mujoco, numpy, zenoh") else { return };
     let (folder, run) = folders();

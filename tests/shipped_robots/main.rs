@@ -105,6 +105,15 @@ fn install() -> Option<PathBuf> {
     Some(folder)
 }
 
+/// Presets of robots, and the files that they train with.
+const PRESETS: [(&str, &str); 5] = [
+    ("g1", "unitree_g1/scene_mjx.xml"),
+    ("g1-29", "unitree_g1/scene_mjx.xml"),
+    ("g1-rough", "unitree_g1/scene_mjx.xml"),
+    ("h1", "unitree_h1/scene.xml"),
+    ("t1", "booster_t1/scene.xml"),
+];
+
 fn text(path: &Path) -> &str {
     path.to_str().expect("a path of text")
 }
@@ -208,13 +217,7 @@ fn built_in_cards_fit_the_files_of_several_projects() {
 #[test]
 fn presets_train_their_robots_from_the_stock_files() {
     let robots = robots();
-    for (preset, file) in [
-        ("g1", "unitree_g1/scene_mjx.xml"),
-        ("g1-29", "unitree_g1/scene_mjx.xml"),
-        ("g1-rough", "unitree_g1/scene_mjx.xml"),
-        ("h1", "unitree_h1/scene.xml"),
-        ("t1", "booster_t1/scene.xml"),
-    ] {
+    for (preset, file) in PRESETS {
         let Some((file, ..)) = robots.iter().find(|(path, ..)| path.ends_with(file)) else { continue };
         let (folder, run) = folders();
         let args = ["train", "--preset", preset, "--model", text(file), "--steps", "8192", "--json", "--no-progress"];
@@ -232,6 +235,39 @@ fn presets_train_their_robots_from_the_stock_files() {
             let yaml = fs::read_to_string(folder.path().join("deploy.yaml")).unwrap();
             assert!(yaml.starts_with("joint_ids_map: [7, 3, 4, 5, 10, 8, 0, 1, 2, 11]\n"), "{yaml}");
         }
+    }
+}
+
+#[test]
+fn published_policies_are_as_good_after_the_first_updates_of_another_run() {
+    let (folder, _) = folders();
+    let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results");
+    let eval = |policy: &str, model: &[&str]| {
+        let args = [&["eval", policy, "--episodes", "20", "--json"], model].concat();
+        last_json(&done(folder.path(), &args))
+    };
+    let after = |preset: &str, policy: &str, model: &[&str]| {
+        let from = ["train", "--preset", preset, "--init-from", policy, "--run-dir", preset, "--json", "--no-progress"];
+        done(folder.path(), &[&from[..], &["--steps", "8192"], model].concat());
+        eval(preset, &["--checkpoint", "latest"])
+    };
+    let number = |found: &Value, name: &str| found[name].as_f64().unwrap_or_else(|| panic!("no {name} in {found}"));
+
+    // It was trained with dense networks.
+    let walk = results.join("policy.safetensors");
+    let before = eval(text(&walk), &[]);
+    let later = after("walk", text(&walk), &["--set", "ppo.symmetry=off"]);
+    assert!(number(&later, "return_mean") > 0.9 * number(&before, "return_mean"), "{before} {later}");
+
+    let robots = robots();
+    for (preset, file) in PRESETS {
+        let Some((file, ..)) = robots.iter().find(|(path, ..)| path.ends_with(file)) else { continue };
+        let model = ["--model", text(file)];
+        let policy = results.join(preset).with_extension("safetensors");
+        let before = eval(text(&policy), &model);
+        let later = after(preset, text(&policy), &model);
+        let worse = |name: &str| number(&later, name) - number(&before, name);
+        assert!(worse("velocity_error_mps") < 0.05 && worse("falls") < 4.0, "{preset}: {before} {later}");
     }
 }
 

@@ -25,6 +25,8 @@ const DROP_MAX_M: f64 = 0.5;
 const DROP_NOTED_M: f64 = 0.1;
 /// How much lower than a foot another part of its leg may be (m).
 const BELOW_FOOT_M: f64 = 0.03;
+/// Distance of two points that a loop holds together, from which it is open (m).
+const OPEN_NOTED_M: f64 = 0.01;
 /// Cosine of the angle, 45°, by which up and left may differ from the axes z and y of the base.
 const AXIS_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Vertical force of a point on the ground that counts (N).
@@ -61,6 +63,7 @@ impl HomePose {
         let mut found = Self::default();
         found.examine_axes(&model, environment.nominal_position());
         found.examine_ground(&model, environment.physics());
+        found.examine_loops(&model, environment.physics());
         if let Some(robot) = &model.robot {
             found.examine_feet(&model, robot, environment.physics());
         }
@@ -109,6 +112,24 @@ impl HomePose {
         };
         if !(-DEPTH_NOTED_M..=DROP_NOTED_M).contains(&height_m) {
             list.push(format!("{what}; {remedy}"));
+        }
+    }
+
+    /// Finds loops that are open: their constraints pull them shut at once.
+    fn examine_loops(&mut self, model: &Model, physics: &Physics) {
+        for connection in &model.connections {
+            let point_m = |end: usize| {
+                let body = model.links[connection.links[end]].body;
+                physics.body_motion(body).pose * connection.points_m[end]
+            };
+            let apart_m = (point_m(0) - point_m(1)).norm();
+            if apart_m > OPEN_NOTED_M {
+                self.warnings.push(format!(
+                    "the loop `{}` is open by {apart_m:.3} m in the default pose, and is pulled shut at once; give a pose \
+                     in which its ends meet: `keyframe` or `default_rad` of the card",
+                    connection.name
+                ));
+            }
         }
     }
 
@@ -328,6 +349,19 @@ mod tests {
         assert!(examine(&smooth).faults[0].contains("no shape that can touch the ground"), "{smooth}");
         let above = examine(&at("0.7"));
         assert!(above.faults.is_empty() && above.warnings[0].contains("0.150 m above"), "{above:?}");
+    }
+
+    #[test]
+    fn a_loop_that_is_open_at_home_is_named() {
+        let strut =
+            r#"<equality><connect name="strut" body1="pelvis" body2="left_foot" anchor="0 .1 -.5"/></equality>"#;
+        let looped =
+            biped(UPRIGHT[0], UPRIGHT[1], HEIGHT, FEET_NAMES).replace("</mujoco>", &format!("{strut}</mujoco>"));
+        assert_eq!(examine(&looped).warnings, Vec::<String>::new());
+        // The foot hangs 0.4 m below a hip that is turned by 0.1.
+        let bent = looped.replace("default_rad = 0.0", "default_rad = 0.1");
+        let warnings = examine(&bent).warnings;
+        assert!(warnings[0].contains("`strut` is open by 0.040 m"), "{warnings:?}");
     }
 
     #[test]

@@ -47,7 +47,9 @@ impl Folder {
     }
 
     pub(crate) fn delete(&self, name: &str) -> Result<(), StoreError> {
-        match fs::remove_file(self.root.join(name)) {
+        let path = self.root.join(name);
+        let removed = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+        match removed {
             Err(why) if why.kind() != io::ErrorKind::NotFound => Err(StoreError::failed(name, why.to_string())),
             _ => Ok(()),
         }

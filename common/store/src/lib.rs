@@ -4,12 +4,14 @@
 //! - Here: [`Store`], its operations and their errors.
 //! - `location`: a store's URL.
 //! - `folder` with `versions`: objects as files of a folder, as on a network file system.
+//! - [`promises`]: whether a store keeps the promises that leadership rests on.
 //! - `remote`: S3, Google Cloud Storage and Azure, by the crate `object_store`.
 //! - [`simulated`]: objects in memory, with faults, for tests.
 
 mod error;
 mod folder;
 mod location;
+pub mod promises;
 mod remote;
 pub mod simulated;
 mod versions;
@@ -158,36 +160,6 @@ mod tests {
     };
 
     use super::*;
-
-    /// What every kind of store must do.
-    fn check(store: &Store) {
-        assert!(matches!(store.get("manifest.json"), Err(StoreError::Missing { .. })));
-        assert_eq!(store.list("states").unwrap(), Vec::<String>::new());
-        let first = store.replace("manifest.json", b"one", None).unwrap();
-        assert!(matches!(store.replace("manifest.json", b"two", None), Err(StoreError::Conflict { .. })));
-        assert_eq!(store.get("manifest.json").unwrap(), (b"one".to_vec(), first.clone()));
-        let second = store.replace("manifest.json", b"two", Some(&first)).unwrap();
-        assert_ne!(first, second);
-        let refused = store.replace("manifest.json", b"three", Some(&first)).unwrap_err();
-        assert!(matches!(refused, StoreError::Conflict { .. }));
-        assert!(refused.to_string().contains("manifest.json"), "{refused}");
-        assert_eq!(store.get("manifest.json").unwrap(), (b"two".to_vec(), second));
-        store.put("states/2.bundle", b"b").unwrap();
-        store.put("states/1.bundle", b"a").unwrap();
-        store.put("states/1.bundle", b"c").unwrap();
-        assert_eq!(store.list("states").unwrap(), ["1.bundle", "2.bundle"]);
-        store.delete("states/2.bundle").unwrap();
-        store.delete("states/2.bundle").unwrap();
-        assert_eq!(store.list("states").unwrap(), ["1.bundle"]);
-        assert_eq!(store.get("states/1.bundle").unwrap().0, b"c");
-    }
-
-    #[test]
-    fn every_kind_keeps_its_promises() {
-        let folder = tempfile::tempdir().unwrap();
-        check(&Store::open(&format!("file://{}/run", folder.path().display())).unwrap());
-        check(&Store::simulated(&SimulatedObjects::default()));
-    }
 
     #[test]
     fn unfinished_writes_are_removed_once_they_are_old() {

@@ -29,6 +29,7 @@ pub struct SimulatedObjects {
 struct Shared {
     objects: BTreeMap<String, Vec<u8>>,
     is_down: bool,
+    ignores_conditions: bool,
     faults: VecDeque<Option<Fault>>,
 }
 
@@ -42,6 +43,11 @@ impl SimulatedObjects {
     /// Lets every operation fail until this is taken back.
     pub fn set_down(&self, is_down: bool) {
         self.lock().is_down = is_down;
+    }
+
+    /// Lets every conditional write succeed, as some servers do.
+    pub fn ignore_conditions(&self) {
+        self.lock().ignores_conditions = true;
     }
 
     /// Sets the faults of the next operations, `None` for one that succeeds.
@@ -65,7 +71,8 @@ impl SimulatedObjects {
 
     pub(crate) fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
         self.run(name, |shared| {
-            if shared.objects.get(name).map(|present| tag(present)).as_ref() != last {
+            let is_last = shared.objects.get(name).map(|present| tag(present)).as_ref() == last;
+            if !is_last && !shared.ignores_conditions {
                 return Err(StoreError::conflict(name));
             }
             shared.objects.insert(name.to_string(), bytes.to_vec());

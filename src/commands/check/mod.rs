@@ -78,7 +78,7 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
         machine::open_files(args.actors.unwrap_or(cores() as u64)),
         machine::clock(time_unix_s()),
     ];
-    findings.extend(args.reach.store_url().map(|url| store::diagnose(&url)));
+    findings.extend(args.reach.store_url().iter().flat_map(|url| store::diagnose(url)));
     findings.extend(args.listen.iter().map(|endpoint| machine::listen(endpoint, &args.reach.network)));
     if let Some(folder) = &args.reach.network.tls {
         findings.extend(certificates::diagnose(folder));

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::robot::counterpart;
-use super::{Coupling, Model};
+use super::{Connection, Coupling, Model};
 
 /// For each entry of a mirrored vector, the index and the sign of the original entry that it holds.
 pub type SignedPermutation = Vec<(usize, f32)>;
@@ -85,6 +85,7 @@ impl Mirror {
             }
         }
         check_couplings(&model.couplings, &hinges)?;
+        check_connections(model, &bodies)?;
         let mut action = Vec::new();
         for motor in &model.motors {
             let (hinge, sign) = hinges[motor.hinge];
@@ -134,9 +135,40 @@ fn check_couplings(couplings: &[Coupling], hinges: &[(usize, f32)]) -> Result<()
     Ok(())
 }
 
+/// Checks that the mirror image of each connection is a connection; `bodies` has the image of each body.
+fn check_connections(model: &Model, bodies: &[usize]) -> Result<(), String> {
+    let poses = poses(model);
+    let ends = |connection: &Connection| {
+        let end = |end: usize| {
+            let body = model.links[connection.links[end]].body;
+            (body, poses[body] * connection.points_m[end])
+        };
+        [end(0), end(1)]
+    };
+    for connection in &model.connections {
+        let images = ends(connection).map(|(body, point_m)| (bodies[body], mirrored(&point_m)));
+        let is_at = |image: (usize, Point3<f64>), found: (usize, Point3<f64>)| {
+            image.0 == found.0 && (image.1 - found.1).norm() <= APART_MAX_M
+        };
+        let is_image = |found: &Connection| {
+            let [one, other] = ends(found);
+            is_at(images[0], one) && is_at(images[1], other) || is_at(images[0], other) && is_at(images[1], one)
+        };
+        if !model.connections.iter().any(is_image) {
+            return Err(format!("the equality `{}` has no mirror image", connection.name));
+        }
+    }
+    Ok(())
+}
+
+/// Returns the mirror image of a point.
+fn mirrored(point_m: &Point3<f64>) -> Point3<f64> {
+    Point3::new(point_m.x, -point_m.y, point_m.z)
+}
+
 /// Returns how far the mirror image of a place is from another one (m), and the cosine between its axis and the other's.
 fn offset((anchor_m, axis): &Place, (other_m, other_axis): &Place) -> (f64, f64) {
-    let apart_m = (Vector3::new(anchor_m.x, -anchor_m.y, anchor_m.z) - other_m.coords).norm();
+    let apart_m = (mirrored(anchor_m) - other_m).norm();
     // An axis is a pseudo-vector: a reflection inverts its components in the plane and keeps the one across.
     (apart_m, other_axis.dot(&axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0))))
 }
@@ -170,13 +202,18 @@ fn with_root(root: &[f32], hinges: &[(usize, f32)]) -> SignedPermutation {
 /// Anchor (m) and axis of a hinge.
 type Place = (Point3<f64>, Vector3<f64>);
 
-/// Returns where each hinge is in the root's frame, with all hinges at zero.
-fn places(model: &Model) -> Vec<Place> {
+/// Returns where each body is in the root's frame, with all hinges at zero.
+fn poses(model: &Model) -> Vec<Isometry3<f64>> {
     let mut poses: Vec<Isometry3<f64>> = Vec::new();
     for body in &model.bodies {
         poses.push(body.parent.map_or(Isometry3::identity(), |parent| poses[parent] * body.pose));
     }
-    let of_body = model.bodies.iter().zip(&poses).flat_map(|(body, pose)| {
+    poses
+}
+
+/// Returns where each hinge is in the root's frame, with all hinges at zero.
+fn places(model: &Model) -> Vec<Place> {
+    let of_body = model.bodies.iter().zip(poses(model)).flat_map(|(body, pose)| {
         model.hinges[body.hinges.clone()].iter().map(move |hinge| (pose * hinge.anchor_m, pose.rotation * *hinge.axis))
     });
     of_body.collect()

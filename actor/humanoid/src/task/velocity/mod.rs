@@ -220,9 +220,11 @@ impl VelocityTask {
 
     /// Returns whether a robot at rest is disturbed.
     fn is_disturbed(&self, physics: &Physics) -> bool {
-        let calm = Calm::of(&self.config);
-        let calm = if self.in_training { calm.in_training(self.seed) } else { calm };
-        self.rested_s().is_some_and(|rested_s| calm.is_disturbed(&self.base(physics), rested_s))
+        self.rested_s().is_some_and(|rested_s| {
+            let calm = Calm::of(&self.config);
+            let calm = if self.in_training { calm.in_training(self.seed) } else { calm };
+            calm.is_disturbed(&self.base(physics), rested_s)
+        })
     }
 
     fn time_s(&self) -> f64 {
