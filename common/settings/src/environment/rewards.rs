@@ -55,7 +55,7 @@ rewards! {
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate = -0.05;
     /// Share of the feet that stand or swing as the gait says, less the share of the others. A robot whose gait rests is to
-    /// stand on both, and earns nothing until it can come to rest without a step.
+    /// stand on both.
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;

@@ -4,7 +4,6 @@
 //! are those of Isaac Lab and mjlab.
 //!
 //! # Layout
-//! - `balance`: whether the robot can come to rest without a step.
 //! - `command`: the schedule of commands.
 //! - `curriculum`: difficulty of ground and commands.
 //! - `feet`: feet and gait.
@@ -12,8 +11,8 @@
 //! - `rewards`: the reward's terms.
 //! - `saved`: the task's state as numbers.
 //! - `scan`: the ground around the base.
+//! - `standing`: when the gait rests, and what wakes it.
 
-mod balance;
 mod command;
 mod curriculum;
 mod feet;
@@ -21,13 +20,12 @@ mod observation;
 mod rewards;
 mod saved;
 mod scan;
+mod standing;
 
 use std::f64::consts::FRAC_PI_2;
 
 use rand::RngExt;
 
-pub use self::balance::Calm;
-use self::balance::{Standing, capture_point_m};
 use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
@@ -38,6 +36,8 @@ use self::rewards::pose_weights;
 pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
+pub use self::standing::Calm;
+use self::standing::Standing;
 use super::{Difficulty, ObservationTerm, Reached, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
@@ -124,12 +124,10 @@ impl VelocityTask {
             .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
             .collect();
         let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
-        let standing = BaseMotion::new(default, physics.velocity(), 0.0);
         let body = Stance {
             default_rad: default[7..].to_vec(),
             pose_weights: pose_weights(physics),
             height_m: default[2],
-            capture_point_m: capture_point_m(physics, feet_links, standing.heading_rad),
             may_lift_higher: ground.is_some(),
         };
         let standing = |foot: usize| match &ground {
@@ -306,7 +304,6 @@ impl Task for VelocityTask {
             rests,
             base,
             feet: &self.feet,
-            capture_point_m: capture_point_m(physics, self.feet_links, base.heading_rad),
             hinges,
             time_s: self.time_s(),
             step_s,

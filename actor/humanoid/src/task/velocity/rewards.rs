@@ -1,6 +1,6 @@
 //! Terms of the reward, each a pure function.
 
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::command::Command;
 use super::feet::{FEET, Foot, Stride, stride};
@@ -10,9 +10,6 @@ use crate::physics::Physics;
 
 /// Time in the air from which a landing is rewarded (s).
 const AIR_TIME_S: f64 = 0.4;
-/// Distance of the capture point from its place in the default pose below which a robot that is commanded to stand puts both
-/// feet down, as a share of the standing height: about half of the way from the middle of the feet to their toes and heels.
-const BALANCED_SHARE: f64 = 0.06;
 /// Horizontal velocity (m/s), and horizontal part of gravity's direction in the frame of the base, below which a robot whose
 /// gait never rests does so.
 const SLOW_MPS: f64 = 0.3;
@@ -101,8 +98,6 @@ pub struct Stance {
     pub pose_weights: Vec<f64>,
     /// Height of the base in the default pose (m).
     pub height_m: f64,
-    /// Capture point of the default pose, relative to the middle of the feet: forward and left (m).
-    pub capture_point_m: Vector2<f64>,
     /// Whether swinging feet may be higher than the gait wants, to reach the next stair.
     pub may_lift_higher: bool,
 }
@@ -124,8 +119,6 @@ pub struct RobotStep<'a> {
     pub base: BaseMotion,
     /// Feet at its end.
     pub feet: &'a [Foot; FEET],
-    /// Capture point at its end, relative to the middle of the feet, in the heading frame: forward and left (m).
-    pub capture_point_m: Vector2<f64>,
     /// Hinges at its end.
     pub hinges: HingeMotion<'a>,
     /// Time since the episode began (s).
@@ -141,20 +134,19 @@ impl RobotStep<'_> {
         self.feet.iter().enumerate()
     }
 
-    /// Returns what the gait wants of a foot; `None` if it rests but the robot cannot yet: it steps as it must.
-    fn stride(&self, foot: usize) -> Option<Stride> {
-        if self.must_rest() {
-            return Some(Stride { stands: true, lift_m: 0.0 });
+    /// Returns what the gait wants of a foot.
+    fn stride(&self, foot: usize) -> Stride {
+        match self.must_rest() {
+            true => Stride { stands: true, lift_m: 0.0 },
+            false => stride(self.config, self.time_s, foot, self.feet[foot].rise_m),
         }
-        (!self.rests).then(|| stride(self.config, self.time_s, foot, self.feet[foot].rise_m))
     }
 
-    /// Returns whether the robot must stand still. One whose gait rests steps until it can come to rest without a step: feet
-    /// that stop before that make it tip over them.
+    /// Returns whether the robot must stand on both feet. Rewards follow what the policy sees: one for rest that comes later
+    /// than rest itself is less than that for steps, and policies jerk to wake the gait.
     fn must_rest(&self) -> bool {
         if self.config.gait_rests {
-            let apart_m = (self.capture_point_m - self.body.capture_point_m).norm();
-            return self.rests && apart_m < BALANCED_SHARE * self.body.height_m;
+            return self.rests;
         }
         let is_slow = self.base.velocity_mps.xy().norm() < SLOW_MPS && self.base.gravity.xy().norm() < UPRIGHT;
         self.command.stands() && is_slow
@@ -195,10 +187,9 @@ impl RewardFunctions for RobotStep<'_> {
     }
 
     fn gait(&self) -> f64 {
-        let follows = |(foot, sensed): (usize, &Foot)| {
-            self.stride(foot).map(|wanted| if sensed.stands == wanted.stands { 1.0 } else { -1.0 })
-        };
-        self.numbered_feet().filter_map(follows).sum::<f64>() / FEET as f64
+        let follows =
+            |(foot, sensed): (usize, &Foot)| if sensed.stands == self.stride(foot).stands { 1.0 } else { -1.0 };
+        self.numbered_feet().map(follows).sum::<f64>() / FEET as f64
     }
 
     fn feet_air_time(&self) -> f64 {
@@ -208,7 +199,8 @@ impl RewardFunctions for RobotStep<'_> {
 
     fn feet_clearance(&self) -> f64 {
         self.numbered_feet()
-            .filter_map(|(index, foot)| Some((foot, self.stride(index).filter(|wanted| !wanted.stands)?)))
+            .map(|(index, foot)| (foot, self.stride(index)))
+            .filter(|(_, wanted)| !wanted.stands)
             .map(|(foot, wanted)| foot.lift_m - wanted.lift_m)
             .filter(|above_m| *above_m < 0.0 || !self.body.may_lift_higher)
             .map(|above_m| above_m.powi(2))

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 
 use super::VelocityTask;
-use super::balance::Standing;
 use super::command::Command;
 use super::curriculum::{CURRICULUM_SAVED, Curriculum};
 use super::feet::FEET;
+use super::standing::Standing;
 use crate::error::StateError;
 
 /// Numbers of the state that do not depend on the robot: command number and steps, control steps of the episode and of
