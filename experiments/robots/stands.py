@@ -2,9 +2,10 @@
 
 Usage: python3 -m experiments.robots.stands PRESET MODEL RUN [RUN ...] [--csv stands.csv]
 
-Each run's newest checkpoint is told to stand for 100 episodes of 20 s, without pushes and from starts as in training, here and in
+Each run's newest checkpoint has to stand for 100 episodes of 20 s, without pushes and from starts as in training, here and in
 MuJoCo. From 2 s on: the largest distance of the base from where it then stood, the root mean square of the hinges' rates, and how
-often a foot is lifted. Beside it stand the errors and falls of 100 episodes with drawn commands and the pushes of the training.
+often a foot is lifted. Beside it stand the errors and falls of 100 episodes with drawn commands and with pushes, which are those of
+the presets of robots with a card.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one

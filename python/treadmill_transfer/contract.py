@@ -155,7 +155,7 @@ def read_contract(text):
         observation=[(term["name"], term["size"]) for term in terms],
         history=int(history.number("frames", above=0.0)),
         gait_period_s=fields.number("gait_period_s", above=0.0),
-        # Files of older versions have a gait that never rests.
+        # Files of older versions have a gait that never rests, or bounds that only the runs of that time knew.
         gait_rests_below=fields.number("gait_rests_below") if "gait_rests_below" in whole else 0.0,
         gait_rests_after_s=fields.number("gait_rests_after_s") if "gait_rests_after_s" in whole else 0.0,
         gait_rests_rate_radps=fields.number("gait_rests_rate_radps") if "gait_rests_rate_radps" in whole else math.inf,

@@ -8,8 +8,6 @@ use toml::Value;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::card::BodySize;
 
-use crate::launch::run_args::OF_ANY_ROBOT;
-
 /// Leg length and weight of a G1 with its card, for which the defaults are made.
 const LEG_LENGTH_M: f64 = 0.657;
 const WEIGHT_N: f64 = 327.0;
@@ -46,10 +44,10 @@ pub fn keys(size: Option<BodySize>) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// Returns the preset, which has the keys of a G1.
+/// Returns the keys of a G1.
 fn of_a_g1() -> Config {
     let mut source = ConfigSource::default();
-    source.preset(OF_ANY_ROBOT).and_then(|()| source.build()).expect("the preset is valid")
+    source.preset("g1").and_then(|()| source.build()).expect("the preset is valid")
 }
 
 /// Returns a number with three digits, so that a configuration is easy to read.

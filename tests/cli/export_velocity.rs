@@ -145,7 +145,7 @@ fn check_deploy(yaml: &str) {
     assert_eq!(in_line(yaml, "lin_vel_x"), ["-0.4", "0.9"]);
     assert!(
         yaml.contains("step_dt: 0.02\n")
-            && yaml.contains("    params: {period: 0.7, command_threshold: 0.1, command_threshold_delay: 0.0}\n"),
+            && yaml.contains("    params: {period: 0.7, command_threshold: 0.1, command_threshold_delay: 1.0}\n"),
         "{yaml}"
     );
     assert!(yaml.contains("[-0.55, 1.05]"), "targets of the knees: {yaml}");

@@ -53,7 +53,9 @@ fn a_run_in_a_store_is_shown_and_checked_by_its_url() {
     let url = format!("file://{}/store", folder.path().display());
     let missing = run(folder.path(), &["status", &url]);
     assert_refused(&missing, 2, &["holds no run"]);
-    assert!(stdout(&run(folder.path(), &["check", &url])).contains("problem  store"));
+    let text = stdout(&run(folder.path(), &["check", &url]));
+    assert!(text.contains("note     store") && text.contains("holds no run"), "{text}");
+    assert!(!folder.path().join("store").exists(), "a mistyped folder is not created");
     let train =
         ["train", "--preset", "smoke", "--actors", "1", "--run-dir", "walk", "--steps", "2048", "--no-progress"];
     done(folder.path(), &[&train[..], &["--store", &url]].concat());
@@ -66,6 +68,7 @@ fn a_run_in_a_store_is_shown_and_checked_by_its_url() {
     );
     let text = stdout(&run(folder.path(), &["check", "walk"]));
     assert!(text.contains("ok       store") && text.contains("holds run `walk` after 2,048 env steps"), "{text}");
+    assert!(text.contains("refuses writes whose condition does not hold"), "{text}");
     assert!(text.lines().any(|line| line.contains("disk") && line.ends_with("/walk")), "{text}");
 }
 

@@ -116,7 +116,7 @@ fn commands_that_no_episode_reaches_are_named() {
 fn a_robot_that_is_to_stand_is_measured_standing() {
     let (folder, run) = folders();
     let folder = folder.path();
-    trained_robot(folder, &run, CARD, &["velocity.gait_rests=true"]);
+    trained_robot(folder, &run, CARD, &["velocity.gait_rests=true", "velocity.gait_rests_after_s=0"]);
     fs::write(folder.join("stand.csv"), "0,0,0,0\n").unwrap();
     let args = ["eval", run.to_str().unwrap(), "--episodes", "1", "--commands", "stand.csv", "--set"];
     let more = ["env.max_episode_steps=150", "--trace", "trace.jsonl", "--json"];

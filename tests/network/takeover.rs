@@ -348,6 +348,7 @@ mod s3 {
         }
         let server = Running::start(command);
         await_that("the S3 server", || TcpStream::connect(("127.0.0.1", port)).ok());
+        // The server answers some time after it listens.
         await_that("a store that keeps its promises", || {
             let mut check = treadmill(folder.path());
             environment(&mut check);

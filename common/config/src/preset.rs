@@ -6,6 +6,9 @@ use super::ConfigError;
 /// begins with 0.66 units.
 macro_rules! velocity {
     ($card:literal) => {
+        concat!(velocity!(of $card), "push_mps = [0.0, 0.5]\n")
+    };
+    (of $card:literal) => {
         concat!(
             "[env]\ntask = \"velocity\"\nrobot = \"",
             $card,
@@ -13,9 +16,7 @@ macro_rules! velocity {
              [policy]\ninit_log_std = -1.8\n[ppo]\nbatch_growth_steps = 1000000\n\
              [randomisation]\nmass_scale = [0.9, 1.1]\nfloor_friction_scale = [0.6, 1.3]\nmotor_scale = [0.9, 1.1]\n\
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
-             action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
-             [rewards]\nstand_still = -0.02\n\
-             [velocity]\ngait_rests = true\ngait_rests_after_s = 1.0\nstanding_share = 0.2\n"
+             action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\n"
         )
     };
 }
@@ -34,8 +35,8 @@ pub const PRESETS: &[(&str, &str)] = &[
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
          [learner]\ntable_every_updates = 4\nmetrics_every_ms = 0\n[bus]\nstats_every_ms = 500\n",
     ),
-    // Robots that follow velocity commands; each needs its model file. Without a card its size changes these keys and more.
-    ("velocity", velocity!("")),
+    // Robots that follow velocity commands; each needs its model file. Without a card its size sets more keys.
+    ("velocity", velocity!(of "")),
     ("g1", velocity!("g1")),
     ("g1-29", velocity!("g1-29")),
     // The same on generated ground, which the policy sees. The ankles of a G1 roll by 0.26 rad, so it cannot stand across a
@@ -44,8 +45,8 @@ pub const PRESETS: &[(&str, &str)] = &[
         "g1-rough",
         concat!(
             velocity!("g1"),
-            "height_scan = true\nswing_height_m = 0.1\n\
-             [ground]\nkinds = [\"slope\", \"stairs\", \"rough\"]\nslope_max = 0.25\n"
+            "[ground]\nkinds = [\"slope\", \"stairs\", \"rough\"]\nslope_max = 0.25\n\
+             [velocity]\nheight_scan = true\nswing_height_m = 0.1\n"
         ),
     ),
     ("h1", velocity!("h1")),

@@ -140,6 +140,13 @@ impl Store {
         }
     }
 
+    /// Waits as long as this kind of store wants between two writes of one object.
+    fn pause(&self) {
+        if let Objects::Remote(remote) = &self.objects {
+            std::thread::sleep(remote.pause());
+        }
+    }
+
     fn named(&self, mut why: StoreError) -> StoreError {
         why.set_store(&self.name);
         why

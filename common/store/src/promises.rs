@@ -2,14 +2,22 @@
 //!
 //! Servers that speak S3's language may ignore the conditions of a write. Two learners would then lead a run at once.
 
-use crate::{Store, StoreError};
+use crate::{Store, StoreError, Tag};
 
 /// What a store did against its promises.
 #[derive(Debug, thiserror::Error)]
 pub enum PromiseError {
-    /// It broke one.
-    #[error("the store `{store}` {broken}; two learners could lead one run at once")]
-    Broken {
+    /// It ignores or does not know the condition of a write.
+    #[error("the store `{store}` {broken}: two learners could lead one run at once")]
+    Conditions {
+        /// URL of the store.
+        store: String,
+        /// What it did.
+        broken: String,
+    },
+    /// It does not return what was written last.
+    #[error("the store `{store}` {broken}: a standby could go on from an old state")]
+    Stale {
         /// URL of the store.
         store: String,
         /// What it did.
@@ -20,48 +28,60 @@ pub enum PromiseError {
     Store(#[from] StoreError),
 }
 
-/// Writes, replaces, lists and deletes trial objects in the folder `check`, with names of this `number`.
+/// Writes, replaces, lists and deletes two trial objects in the folder `check`, with names of this `number`.
 ///
 /// # Errors
-/// If the store breaks a promise, or fails. Trial objects may then stay.
+/// If the store breaks a promise, or fails.
 pub fn check(store: &Store, number: u64) -> Result<(), PromiseError> {
     let names = ["json", "bundle"].map(|kind| format!("{number:016x}.{kind}"));
-    let [manifest, state] = names.clone().map(|name| format!("check/{name}"));
-    let broken = |broken| Err(PromiseError::Broken { store: store.to_string(), broken });
-    let first = store.replace(&manifest, b"one", None)?;
-    if !is_refused(store.replace(&manifest, b"two", None))? {
-        return broken("creates an object that exists already");
-    }
-    if store.get(&manifest)? != (b"one".to_vec(), first.clone()) {
-        return broken("does not return what was written last");
-    }
-    let second = store.replace(&manifest, b"two", Some(&first))?;
-    if !is_refused(store.replace(&manifest, b"three", Some(&first)))? {
-        return broken("replaces an object that another writer has changed");
-    }
-    if store.get(&manifest)? != (b"two".to_vec(), second) {
-        return broken("does not return what was written last");
-    }
-    store.put(&state, b"a")?;
-    store.put(&state, b"b")?;
-    let listed = store.list("check")?;
-    if store.get(&state)?.0 != b"b" || !names.iter().all(|name| listed.contains(name)) {
-        return broken("does not list or return what was written last");
-    }
-    for name in [&state, &manifest] {
+    let objects = names.clone().map(|name| format!("check/{name}"));
+    let tried = attempt(store, &names, &objects);
+    let deleted = objects.iter().try_for_each(|name| {
         store.delete(name)?;
-    }
-    // It is no error if there is none.
-    store.delete(&state)?;
-    match store.get(&state) {
+        // It is no error if there is none.
+        store.delete(name)
+    });
+    tried?;
+    deleted?;
+    match store.get(&objects[0]) {
         Err(StoreError::Missing { .. }) => Ok(()),
         Err(why) => Err(why.into()),
-        Ok(_) => broken("returns an object that was deleted"),
+        Ok(_) => Err(PromiseError::Stale { store: store.to_string(), broken: "returns an object that was deleted" }),
     }
 }
 
+fn attempt(store: &Store, names: &[String; 2], [manifest, state]: &[String; 2]) -> Result<(), PromiseError> {
+    let ignored = |broken: &str| PromiseError::Conditions { store: store.to_string(), broken: broken.to_owned() };
+    let stale = |broken| Err(PromiseError::Stale { store: store.to_string(), broken });
+    // A store that takes any write, but none with a condition, does not know conditions.
+    store.put(state, b"a")?;
+    let refused = |why: StoreError| ignored(&format!("accepts no conditional write ({why})"));
+    let first = store.replace(manifest, b"one", None).map_err(refused)?;
+    if !is_refused(store.replace(manifest, b"two", None))? {
+        return Err(ignored("creates an object that exists already"));
+    }
+    if store.get(manifest)? != (b"one".to_vec(), first.clone()) {
+        return stale("does not return what was written last");
+    }
+    store.pause();
+    let second = store.replace(manifest, b"two", Some(&first)).map_err(refused)?;
+    if !is_refused(store.replace(manifest, b"three", Some(&first)))? {
+        return Err(ignored("replaces an object that another writer has changed"));
+    }
+    if store.get(manifest)? != (b"two".to_vec(), second) {
+        return stale("does not return what was written last");
+    }
+    store.put(state, b"b")?;
+    let listed = store.list("check")?;
+    if store.get(state)?.0 != b"b" || !names.iter().all(|name| listed.contains(name)) {
+        return stale("does not list or return what was written last");
+    }
+    store.pause();
+    Ok(())
+}
+
 /// Returns whether a write lost against another writer.
-fn is_refused(written: Result<crate::Tag, StoreError>) -> Result<bool, StoreError> {
+fn is_refused(written: Result<Tag, StoreError>) -> Result<bool, StoreError> {
     match written {
         Ok(_) => Ok(false),
         Err(StoreError::Conflict { .. }) => Ok(true),
@@ -92,6 +112,8 @@ mod tests {
         let objects = SimulatedObjects::default();
         objects.ignore_conditions();
         let why = check(&Store::simulated(&objects), 7).unwrap_err().to_string();
-        assert!(why.contains("`memory` creates an object that exists already; two learners"), "{why}");
+        assert!(why.contains("`memory` creates an object that exists already: two learners"), "{why}");
+        let left = Store::simulated(&objects).list("check").unwrap();
+        assert_eq!(left, Vec::<String>::new());
     }
 }

@@ -60,6 +60,12 @@ impl Remote {
         Ok(Self { scheme, objects, root, answer_timeout: ANSWER_TIMEOUT, runtime: Some(runtime) })
     }
 
+    /// Pause between two writes of one object, of which Google takes one per second:
+    /// <https://cloud.google.com/storage/quotas>.
+    pub(crate) fn pause(&self) -> Duration {
+        if matches!(self.scheme, Scheme::GoogleCloud) { Duration::from_millis(1100) } else { Duration::ZERO }
+    }
+
     pub(crate) fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let written = self.wait(bytes.len() as u64, self.objects.put(&self.path(name), payload(bytes)));
         written.map(|_| ()).map_err(|why| not_written(name, &why))

@@ -2,7 +2,10 @@
 
 use treadmill_learner::leadership::read_manifest;
 use treadmill_runtime::{error_chain, numbers::thousands, seeds};
-use treadmill_store::{Store, promises};
+use treadmill_store::{
+    Store,
+    promises::{self, PromiseError},
+};
 
 use crate::{diagnosis::finding::Finding, launch::slow_step::SlowStepNotice, shared::saved_run};
 
@@ -10,32 +13,45 @@ const NAME: &str = "store";
 /// Remedy for a store that fails.
 const FAILS: &str = "check its address, the network and the credentials in the environment";
 
-/// Writes trial objects into a store, and reads the newest state of its run.
+/// Reads the newest state of the run in a store, and tries by trial objects whether the store suits a run.
 pub fn diagnose(url: &str) -> Vec<Finding> {
     let _step = SlowStepNotice::begin("trying the store");
     let store = match Store::open(url) {
         Ok(store) => store,
         Err(why) => return vec![Finding::problem(NAME, error_chain(&why), FAILS)],
     };
-    vec![trial(&store), run(&store)]
+    match read_manifest(&store) {
+        Err(why) => vec![Finding::problem(NAME, error_chain(&why), FAILS)],
+        Ok(None) => {
+            let remedy = "correct its address, or begin a run there by `treadmill learner --store`";
+            let mut findings = vec![Finding::note(NAME, format!("{store} holds no run"), remedy)];
+            // A trial would create a folder, whose address may be mistyped.
+            findings.extend((!url.starts_with("file:")).then(|| trial(&store, false)));
+            findings
+        }
+        Ok(Some(_)) => vec![run(&store), trial(&store, true)],
+    }
 }
 
-fn trial(store: &Store) -> Finding {
+/// Who may only read can watch a run, so that a refused write is no problem where there is one.
+fn trial(store: &Store, holds_run: bool) -> Finding {
     match promises::check(store, seeds::unique()) {
         Ok(()) => Finding::ok(NAME, format!("{store} refuses writes whose condition does not hold")),
-        Err(why @ promises::PromiseError::Broken { .. }) => {
+        Err(PromiseError::Store(why)) if holds_run => {
+            let remedy = "a learner needs credentials that may write; to watch a run, reading is enough";
+            Finding::note(NAME, format!("no trial of its writes: {}", error_chain(&why)), remedy)
+        }
+        Err(PromiseError::Store(why)) => Finding::problem(NAME, error_chain(&why), FAILS),
+        Err(why @ PromiseError::Conditions { .. }) => {
             Finding::problem(NAME, why.to_string(), "use a server with conditional writes (If-Match, If-None-Match)")
         }
-        Err(promises::PromiseError::Store(why)) => Finding::problem(NAME, error_chain(&why), FAILS),
+        Err(why @ PromiseError::Stale { .. }) => {
+            Finding::problem(NAME, why.to_string(), "use a server without a cache before it")
+        }
     }
 }
 
 fn run(store: &Store) -> Finding {
-    match read_manifest(store) {
-        Ok(None) => return Finding::ok(NAME, format!("{store} holds no run")),
-        Err(why) => return Finding::problem(NAME, error_chain(&why), FAILS),
-        Ok(Some(_)) => {}
-    }
     match saved_run::of_store(&store.to_string()) {
         Ok((state, manifest)) => {
             let (run, steps) = (&manifest.run, thousands(state.counters.env_steps));

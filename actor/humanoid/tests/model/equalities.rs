@@ -1,8 +1,9 @@
 //! Equalities, polynomial springs and friction, frames around joints, and rotors of actuators, with MuJoCo's values.
 
 use nalgebra::{Point3, Vector3};
-use treadmill_humanoid::Model;
+use treadmill_humanoid::{Mirror, Model};
 
+use crate::automatic::upright;
 use crate::support::{Text, changed};
 
 /// Two arms whose second hinge follows the first, joined at their ends.
@@ -117,4 +118,19 @@ fn impossible_equalities_are_refused_by_name() {
     let by_class = changed(ARMS, "<site name='tip' pos='0 0 -0.3'/>", "<site name='tip'/>");
     let by_class = changed(&by_class, rod, "site1='tip' site2='end'");
     assert!(crate::support::problem(&by_class).contains("give the site its own `pos`"));
+}
+
+#[test]
+fn a_loop_needs_a_mirror_image() {
+    let mirror = |left: &str, right: &str| {
+        let rod = |side: &str, at: &str| {
+            format!("<connect name='{side}' body1='{side}_shank' body2='{side}_foot' anchor='{at}'/>")
+        };
+        let rods = format!("<equality>{}{}</equality></mujoco>", rod("left", left), rod("right", right));
+        Mirror::of(&Model::without_motors(&changed(&upright(), "</mujoco>", &rods)).expect("valid"))
+    };
+    assert!(mirror("-0.05 0.02 -0.35", "-0.05 -0.02 -0.35").is_ok());
+    let problem =
+        mirror("-0.05 0.02 -0.35", "-0.05 0.02 -0.35").expect_err("both rods are on the left of their shanks");
+    assert_eq!(problem, "the equality `left` has no mirror image");
 }

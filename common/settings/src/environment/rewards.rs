@@ -68,9 +68,8 @@ rewards! {
     landing = 0.0;
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
     pose = -0.5;
-    /// Squared rates of the hinges (rad²/s²), while the command says: stand; without `velocity.gait_rests` only while the
-    /// robot is slow and upright, too.
-    stand_still = 0.0;
+    /// Squared rates of the hinges (rad²/s²) with `velocity.gait_rests`, while the command says: stand.
+    stand_still = -0.02;
     /// Squared change of the action from step to step, in units of the action.
     action_rate = -0.01;
     /// Squared torques (N²m²).

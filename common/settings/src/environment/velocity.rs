@@ -21,11 +21,12 @@ section! {
         gait_period_s: f64 = 0.8, "0.1 to 10" => |v| (0.1..=10.0).contains(v);
         /// Share of the gait period for which a foot stands.
         stance_share: f64 = 0.6, "0.05 to 0.95" => |v| (0.05..=0.95).contains(v);
-        /// Whether the gait rests while the command says: stand. The policy then sees the phase (0, 0).
+        /// Whether the gait rests while the command says: stand. The policy then sees the phase (0, 0). Robots stand still
+        /// so, and fall more often when they are pushed.
         gait_rests: bool = false, "true or false" => |_| true;
         /// Time after a command to stand for which the phase goes on before the gait rests, in seconds. It goes on for as
-        /// long when the robot is pushed or tips over at rest. 0 means at once and whatever happens, as in unitree_rl_mjlab.
-        gait_rests_after_s: f64 = 0.0, "0 to 10" => |v| (0.0..=10.0).contains(v);
+        /// long when the base turns at rest, as after a push. 0 means at once and whatever happens, as in unitree_rl_mjlab.
+        gait_rests_after_s: f64 = 1.0, "0 to 10" => |v| (0.0..=10.0).contains(v);
         /// Height to which a swinging foot is lifted, in metres, above the highest ground within 0.2 m of it.
         swing_height_m: f64 = 0.08, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Squared error of the horizontal velocity at which its tracking reward falls to 1/e (m²/s²).

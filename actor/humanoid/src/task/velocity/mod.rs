@@ -211,20 +211,6 @@ impl VelocityTask {
         self.drawn_left_steps = self.drawn.steps;
     }
 
-    /// Returns how long the gait has rested (s); `None` if it does not, and the policy sees its phase.
-    fn rested_s(&self) -> Option<f64> {
-        self.standing.rested_s(&self.config, self.step_s).filter(|_| self.command.stands())
-    }
-
-    /// Returns whether a robot at rest is disturbed.
-    fn is_disturbed(&self, physics: &Physics) -> bool {
-        self.rested_s().is_some_and(|rested_s| {
-            let calm = Calm::of(&self.config);
-            let calm = if self.in_training { calm.in_training(self.seed) } else { calm };
-            calm.is_disturbed(&self.base(physics), rested_s)
-        })
-    }
-
     fn time_s(&self) -> f64 {
         f64::from(self.episode_steps) * self.step_s
     }

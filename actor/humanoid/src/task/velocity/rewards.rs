@@ -222,7 +222,7 @@ impl RewardFunctions for RobotStep<'_> {
 
     /// At steps, too: without this cost, a robot earns as much by steps on the spot as at rest.
     fn stand_still(&self) -> f64 {
-        let counts = if self.config.gait_rests { self.command.stands() } else { self.must_rest() };
+        let counts = self.config.gait_rests && self.command.stands();
         if counts { self.hinges.rates_radps.iter().map(|rate| rate * rate).sum() } else { 0.0 }
     }
 

@@ -1,15 +1,18 @@
 //! Standing: when the gait rests, and what wakes it.
 
-use super::rewards::BaseMotion;
+use nalgebra::Vector3;
+
+use super::VelocityTask;
 use crate::config::VelocityConfig;
+use crate::physics::Physics;
 use crate::randomisation::{stream, uniform};
 
 /// Shares of the bounds of [`Calm`], one of which holds for an episode of training. With bounds that never change, policies
 /// learn to rest just within them, and fall beside them.
 const SHARES_IN_TRAINING: [f64; 2] = [0.5, 1.5];
 
-/// When a robot whose gait rests is calm, by what its inertial sensor measures. A push, or a stop that tips it over, wakes
-/// its gait: from a rest, policies hardly learn to step.
+/// When a robot whose gait rests is calm, by what its inertial sensor measures. A base that turns, as by a push or a stop
+/// that tips it over, wakes the gait: from a rest, policies hardly learn to step. A tilt does not: some robots rest so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calm {
     /// Largest angular velocity of the base (rad/s).
@@ -36,9 +39,9 @@ impl Calm {
     }
 
     /// Returns whether a robot is disturbed after so long at rest.
-    pub fn is_disturbed(&self, base: &BaseMotion, rested_s: f64) -> bool {
+    pub fn is_disturbed(&self, angular_radps: &Vector3<f64>, rested_s: f64) -> bool {
         let rate_radps = if rested_s < self.settled_s { self.rate_radps } else { self.settled_rate_radps };
-        base.angular_radps.norm() > rate_radps
+        angular_radps.norm() > rate_radps
     }
 }
 
@@ -60,6 +63,23 @@ impl Standing {
     pub fn rested_s(self, config: &VelocityConfig, step_s: f64) -> Option<f64> {
         let rested_s = f64::from(self.steps.checked_sub(1)?) * step_s - config.gait_rests_after_s;
         (config.gait_rests && rested_s >= 0.0).then_some(rested_s)
+    }
+}
+
+impl VelocityTask {
+    /// Returns how long the gait has rested (s); `None` if it does not, and the policy sees its phase.
+    pub(super) fn rested_s(&self) -> Option<f64> {
+        self.standing.rested_s(&self.config, self.step_s).filter(|_| self.command.stands())
+    }
+
+    /// Returns whether a robot at rest is disturbed.
+    pub(super) fn is_disturbed(&self, physics: &Physics) -> bool {
+        self.rested_s().is_some_and(|rested_s| {
+            let calm = Calm::of(&self.config);
+            let calm = if self.in_training { calm.in_training(self.seed) } else { calm };
+            let velocity = physics.velocity();
+            calm.is_disturbed(&Vector3::new(velocity[3], velocity[4], velocity[5]), rested_s)
+        })
     }
 }
 
@@ -86,10 +106,8 @@ mod tests {
     fn a_turn_disturbs_and_once_settled_a_slower_one() {
         // A period of 0.8 s: 2 rad/s, and 0.4 rad/s from then on.
         let calm = Calm::of(&VelocityConfig::default());
-        let is_disturbed = |rate_radps: f64, rested_s: f64| {
-            let velocity = [0.0, 0.0, 0.0, 0.8 * rate_radps, -0.6 * rate_radps, 0.0];
-            calm.is_disturbed(&BaseMotion::new(&[0.0, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0], &velocity, 0.0), rested_s)
-        };
+        let is_disturbed =
+            |rate_radps: f64, rested_s: f64| calm.is_disturbed(&(rate_radps * Vector3::new(0.8, -0.6, 0.0)), rested_s);
         assert!(!is_disturbed(1.99, 0.0) && !is_disturbed(1.99, 0.79) && is_disturbed(2.01, 0.79));
         assert!(!is_disturbed(0.39, 0.81) && is_disturbed(0.41, 0.81));
         let shares: Vec<f64> = (0..100).map(|seed| calm.in_training(seed).rate_radps / calm.rate_radps).collect();
