@@ -46,6 +46,16 @@ def made_by(made, packages=PACKAGES):
     return f"Treadmill {made['commit']}; " + ", ".join(f"{key} {made[key]}" for key in keys) + f"; {made['cpu']}."
 
 
+def append_row(path, columns, cells, sources):
+    """Appends a row with commit and machine to a table, which begins with the names of its columns."""
+    is_new = not path.exists()
+    with path.open("a", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        if is_new:
+            table.writerow([*columns, "commit", "machine"])
+        table.writerow([*cells, commit(sources), cpu_model()])
+
+
 def write_json(path, result):
     """Writes JSON with five significant digits, one entry per line."""
 

@@ -70,7 +70,7 @@ enum Command {
     Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
-    /// Examine this machine and the route to a learner; name problems and remedies.
+    /// Examine this machine, the route to a learner and, by trial objects, a run's store; name problems and remedies.
     Check(check::CheckArgs),
     /// Print the script that completes commands and flags in a shell.
     Completions(manual::CompletionsArgs),

@@ -15,7 +15,6 @@ PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on
 
 import argparse
 import bisect
-import csv
 import json
 import os
 import pathlib
@@ -30,7 +29,7 @@ PUSHES = ["--set", "randomisation.push_mps=[0.0,0.5]", "--set", "randomisation.p
 SOURCES = ("actor", "common", "learner", "src")
 MEASURED = ["velocity error", "yaw rate error", "falls"]
 COLUMNS = ["preset", f"goal, of {EPISODES} episodes", "seed", "steps", "seconds from the start of `train`", "obeys", *MEASURED]
-COLUMNS += [f"in MuJoCo: {MEASURED[0]}", *MEASURED[1:], "commit", "machine"]
+COLUMNS += [f"in MuJoCo: {MEASURED[0]}", *MEASURED[1:]]
 CHECKPOINTS = ["--set", "learner.checkpoint_every_updates=100", "--set", "learner.keep_checkpoints=1000"]
 
 
@@ -134,13 +133,7 @@ def main():
         for row in measure(program, args, seed, folder):
             print(json.dumps(row), flush=True)
             if args.csv:
-                made = [report.commit(SOURCES), report.cpu_model()]
-                is_new = not args.csv.exists()
-                with args.csv.open("a", encoding="utf-8", newline="") as file:
-                    table = csv.writer(file, lineterminator="\n")
-                    if is_new:
-                        table.writerow(COLUMNS)
-                    table.writerow([*cells(args, row), *made])
+                report.append_row(args.csv, COLUMNS, cells(args, row), SOURCES)
             if row["obeys"] and not args.all:
                 break
 

@@ -4,15 +4,14 @@ Usage: python3 -m experiments.robots.stands PRESET MODEL RUN [RUN ...] [--csv st
 
 Each run's newest checkpoint has to stand for 100 episodes of 20 s, without pushes and from starts as in training, here and in
 MuJoCo. From 2 s on: the largest distance of the base from where it then stood, the root mean square of the hinges' rates, and how
-often a foot is lifted. Beside it stand the errors and falls of 100 episodes with drawn commands and with pushes, which are those of
-the presets of robots with a card.
+often a foot is lifted. Beside it stand the errors and falls of 100 episodes with drawn commands and the pushes of PRESET: g1, g1-29,
+h1 or t1.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one
 """
 
 import argparse
-import csv
 import os
 import pathlib
 import sys
@@ -23,14 +22,15 @@ from experiments.robots.obeys import EPISODES, PUSHES, SOURCES, last_line
 
 STANDING = ["drift (m)", "hinges (rad/s)", "lifts of a foot (1/s)", "falls"]
 COLUMNS = ["preset", "seed", "steps", "simulator", *[f"standing: {what}" for what in STANDING]]
-COLUMNS += ["commands: velocity error (m/s)", "yaw rate error (rad/s)", "falls with pushes", "commit", "machine"]
+COLUMNS += ["commands: velocity error (m/s)", "yaw rate error (rad/s)", "falls with pushes"]
 
 
 def cells(standing, commanded):
     """Returns the measured cells of a row from the summaries of both."""
     still = [standing["standing_drift_m"], standing["standing_hinge_radps"], standing["standing_lifts_per_s"]]
     errors = [commanded["velocity_error_mps"], commanded["yaw_rate_error_radps"]]
-    still, errors = (["–" if number is None else f"{number:.3f}" for number in numbers] for numbers in (still, errors))
+    # A policy that always falls at once has no errors.
+    still, errors = ([f"{number:.3f}" if number is not None else "–" for number in numbers] for numbers in (still, errors))
     return [*still, standing["falls"], *errors, commanded["falls"]]
 
 
@@ -63,12 +63,7 @@ def main():
             for row in rows(program, args, run, pathlib.Path(folder)):
                 print(row, flush=True)
                 if args.csv:
-                    is_new = not args.csv.exists()
-                    with args.csv.open("a", encoding="utf-8", newline="") as file:
-                        table = csv.writer(file, lineterminator="\n")
-                        if is_new:
-                            table.writerow(COLUMNS)
-                        table.writerow([*row, report.commit(SOURCES), report.cpu_model()])
+                    report.append_row(args.csv, COLUMNS, row, SOURCES)
 
 
 if __name__ == "__main__":

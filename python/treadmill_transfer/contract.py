@@ -139,6 +139,12 @@ def read_contract(text):
     terms = fields.get("observation")
     if not isinstance(terms, list) or not all(isinstance(term, dict) and {"name", "size"} <= set(term) for term in terms):
         raise TransferError("`observation` is not a list of terms with `name` and `size`")
+
+    # Files of older versions have a gait that never rests.
+    def of_rest(name, without):
+        key = f"gait_rests_{name}"
+        return fields.number(key) if key in whole else without
+
     return Contract(
         control_step_s=fields.number("control_step_s", above=0.0),
         joints=joints,
@@ -155,12 +161,11 @@ def read_contract(text):
         observation=[(term["name"], term["size"]) for term in terms],
         history=int(history.number("frames", above=0.0)),
         gait_period_s=fields.number("gait_period_s", above=0.0),
-        # Files of older versions have a gait that never rests, or bounds that only the runs of that time knew.
-        gait_rests_below=fields.number("gait_rests_below") if "gait_rests_below" in whole else 0.0,
-        gait_rests_after_s=fields.number("gait_rests_after_s") if "gait_rests_after_s" in whole else 0.0,
-        gait_rests_rate_radps=fields.number("gait_rests_rate_radps") if "gait_rests_rate_radps" in whole else math.inf,
-        gait_rests_settled_s=fields.number("gait_rests_settled_s") if "gait_rests_settled_s" in whole else math.inf,
-        gait_rests_settled_rate_radps=fields.number("gait_rests_settled_rate_radps") if "gait_rests_settled_s" in whole else math.inf,
+        gait_rests_below=of_rest("below", 0.0),
+        gait_rests_after_s=of_rest("after_s", 0.0),
+        gait_rests_rate_radps=of_rest("rate_radps", math.inf),
+        gait_rests_settled_s=of_rest("settled_s", math.inf),
+        gait_rests_settled_rate_radps=of_rest("settled_rate_radps", math.inf),
         ranges=numpy.array([commands.numbers(name, 2) for name in ("lin_vel_x_mps", "lin_vel_y_mps", "ang_vel_z_radps")]),
         resampling_s=tuple(commands.numbers("resampling_s", 2)),
         standing_share=commands.number("standing_share"),

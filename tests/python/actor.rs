@@ -167,19 +167,8 @@ fn a_python_actor_goes_on_with_the_standby_that_takes_over() {
     let leading = listening(&leader);
     let standby = learner("second", &["--standby", "--connect", &leading]);
     let (second, following) = (folder.path().join("second"), listening(&standby));
-    python.args([
-        "-m",
-        "treadmill_actor",
-        "--env",
-        "InvertedPendulum-v5",
-        "--run",
-        "run",
-        "--envs",
-        "4",
-        "--seed",
-        "1",
-    ]);
-    python.args(["--connect", &leading, "--connect", &following]);
+    python.args(["-m", "treadmill_actor", "--env", "InvertedPendulum-v5", "--envs", "4", "--seed", "1"]);
+    python.args(["--run", "run", "--connect", &leading, "--connect", &following]);
     let actor = Running::start(python);
     await_steps(&run, 2048);
     standby.wait_for("run `run` is at");

@@ -7,21 +7,13 @@ use crate::{Store, StoreError, Tag};
 /// What a store did against its promises.
 #[derive(Debug, thiserror::Error)]
 pub enum PromiseError {
-    /// It ignores or does not know the condition of a write.
-    #[error("the store `{store}` {broken}: two learners could lead one run at once")]
-    Conditions {
+    /// It broke one.
+    #[error("the store `{store}` {broken}")]
+    Broken {
         /// URL of the store.
         store: String,
-        /// What it did.
+        /// What it did, and what may follow.
         broken: String,
-    },
-    /// It does not return what was written last.
-    #[error("the store `{store}` {broken}: a standby could go on from an old state")]
-    Stale {
-        /// URL of the store.
-        store: String,
-        /// What it did.
-        broken: &'static str,
     },
     /// It failed.
     #[error(transparent)]
@@ -36,48 +28,48 @@ pub fn check(store: &Store, number: u64) -> Result<(), PromiseError> {
     let names = ["json", "bundle"].map(|kind| format!("{number:016x}.{kind}"));
     let objects = names.clone().map(|name| format!("check/{name}"));
     let tried = attempt(store, &names, &objects);
-    let deleted = objects.iter().try_for_each(|name| {
-        store.delete(name)?;
-        // It is no error if there is none.
-        store.delete(name)
-    });
+    // The second time there is nothing to delete, which is no error.
+    let deleted = objects.iter().chain(&objects).try_for_each(|name| store.delete(name));
     tried?;
     deleted?;
     match store.get(&objects[0]) {
         Err(StoreError::Missing { .. }) => Ok(()),
         Err(why) => Err(why.into()),
-        Ok(_) => Err(PromiseError::Stale { store: store.to_string(), broken: "returns an object that was deleted" }),
+        Ok(_) => Err(broken(store, "returns an object that was deleted")),
     }
 }
 
 fn attempt(store: &Store, names: &[String; 2], [manifest, state]: &[String; 2]) -> Result<(), PromiseError> {
-    let ignored = |broken: &str| PromiseError::Conditions { store: store.to_string(), broken: broken.to_owned() };
-    let stale = |broken| Err(PromiseError::Stale { store: store.to_string(), broken });
-    // A store that takes any write, but none with a condition, does not know conditions.
+    const TWO_LEADERS: &str = "so that two learners could lead one run at once";
+    const OLD: &str = "does not return what was written last, so that a standby could go on from an old state";
     store.put(state, b"a")?;
-    let refused = |why: StoreError| ignored(&format!("accepts no conditional write ({why})"));
-    let first = store.replace(manifest, b"one", None).map_err(refused)?;
+    let first = match store.replace(manifest, b"one", None) {
+        Err(why) => return Err(broken(store, &format!("took a plain write, but not a conditional one: {why}"))),
+        Ok(first) => first,
+    };
     if !is_refused(store.replace(manifest, b"two", None))? {
-        return Err(ignored("creates an object that exists already"));
+        return Err(broken(store, &format!("creates an object that exists already, {TWO_LEADERS}")));
     }
     if store.get(manifest)? != (b"one".to_vec(), first.clone()) {
-        return stale("does not return what was written last");
+        return Err(broken(store, OLD));
     }
     store.pause();
-    let second = store.replace(manifest, b"two", Some(&first)).map_err(refused)?;
+    let second = store.replace(manifest, b"two", Some(&first))?;
     if !is_refused(store.replace(manifest, b"three", Some(&first)))? {
-        return Err(ignored("replaces an object that another writer has changed"));
-    }
-    if store.get(manifest)? != (b"two".to_vec(), second) {
-        return stale("does not return what was written last");
+        return Err(broken(store, &format!("replaces an object that another writer has changed, {TWO_LEADERS}")));
     }
     store.put(state, b"b")?;
     let listed = store.list("check")?;
-    if store.get(state)?.0 != b"b" || !names.iter().all(|name| listed.contains(name)) {
-        return stale("does not list or return what was written last");
+    let is_newest = store.get(manifest)? == (b"two".to_vec(), second) && store.get(state)?.0 == b"b";
+    if !is_newest || !names.iter().all(|name| listed.contains(name)) {
+        return Err(broken(store, OLD));
     }
     store.pause();
     Ok(())
+}
+
+fn broken(store: &Store, broken: &str) -> PromiseError {
+    PromiseError::Broken { store: store.to_string(), broken: broken.to_owned() }
 }
 
 /// Returns whether a write lost against another writer.
@@ -112,7 +104,7 @@ mod tests {
         let objects = SimulatedObjects::default();
         objects.ignore_conditions();
         let why = check(&Store::simulated(&objects), 7).unwrap_err().to_string();
-        assert!(why.contains("`memory` creates an object that exists already: two learners"), "{why}");
+        assert!(why.contains("`memory` creates an object that exists already, so that two learners"), "{why}");
         let left = Store::simulated(&objects).list("check").unwrap();
         assert_eq!(left, Vec::<String>::new());
     }

@@ -23,7 +23,7 @@ pub fn diagnose(url: &str) -> Vec<Finding> {
     match read_manifest(&store) {
         Err(why) => vec![Finding::problem(NAME, error_chain(&why), FAILS)],
         Ok(None) => {
-            let remedy = "correct its address, or begin a run there by `treadmill learner --store`";
+            let remedy = format!("correct its address, or begin a run there by `treadmill learner --store {store}`");
             let mut findings = vec![Finding::note(NAME, format!("{store} holds no run"), remedy)];
             // A trial would create a folder, whose address may be mistyped.
             findings.extend((!url.starts_with("file:")).then(|| trial(&store, false)));
@@ -42,11 +42,9 @@ fn trial(store: &Store, holds_run: bool) -> Finding {
             Finding::note(NAME, format!("no trial of its writes: {}", error_chain(&why)), remedy)
         }
         Err(PromiseError::Store(why)) => Finding::problem(NAME, error_chain(&why), FAILS),
-        Err(why @ PromiseError::Conditions { .. }) => {
-            Finding::problem(NAME, why.to_string(), "use a server with conditional writes (If-Match, If-None-Match)")
-        }
-        Err(why @ PromiseError::Stale { .. }) => {
-            Finding::problem(NAME, why.to_string(), "use a server without a cache before it")
+        Err(why @ PromiseError::Broken { .. }) => {
+            let remedy = "use a server with conditional writes (If-Match, If-None-Match), without a cache before it";
+            Finding::problem(NAME, why.to_string(), remedy)
         }
     }
 }

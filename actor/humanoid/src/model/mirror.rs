@@ -40,7 +40,7 @@ impl Mirror {
     /// Returns the reflection of a model. Masses and shapes of counterparts by name are not compared.
     ///
     /// # Errors
-    /// A message that names the first hinge or motor without a mirror image.
+    /// A message that names the first hinge, equality or motor without a mirror image.
     pub fn of(model: &Model) -> Result<Self, String> {
         let places = places(model);
         let names: Vec<&str> = model.hinges.iter().map(|hinge| &*hinge.name).collect();

@@ -142,8 +142,8 @@ impl RobotStep<'_> {
         }
     }
 
-    /// Returns whether the robot must stand on both feet. Rewards follow what the policy sees: one for rest that comes later
-    /// than rest itself is less than that for steps, and policies jerk to wake the gait.
+    /// Returns whether the robot must stand on both feet. One whose gait rests must at once: policies that earn nothing
+    /// until they are balanced jerk to wake the gait, whose steps pay.
     fn must_rest(&self) -> bool {
         if self.config.gait_rests {
             return self.rests;
