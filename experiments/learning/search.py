@@ -27,6 +27,9 @@ CANDIDATES = {
     "target KL 0.02, learning rate 1e-3": ["ppo.target_kl=0.02", "ppo.learning_rate=1e-3", "ppo.learning_rate_max=2e-3"],
     "target KL 0.02, first log std −1": ["ppo.target_kl=0.02", "policy.init_log_std=-1"],
     "target KL 0.02, network 512–256": ["ppo.target_kl=0.02", "policy.hidden=[512, 256]"],
+    "γ 0.98": ["ppo.gamma=0.98"],
+    "λ 0.9": ["ppo.gae_lambda=0.9"],
+    "γ 0.98, λ 0.9": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9"],
     "3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3"],
     "minibatch 256, 3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.minibatch=256"],
     "batch 4096, 3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.batch=4096"],
@@ -37,7 +40,7 @@ CANDIDATES = {
 
 def folder_of(root, name, seed):
     """Returns the run's folder, whose name must be valid in bus keys."""
-    plain = name.replace("λ", "lambda").replace("×", "x").replace("–", "-").replace("−", "minus-")
+    plain = name.replace("γ", "gamma").replace("λ", "lambda").replace("×", "x").replace("–", "-").replace("−", "minus-")
     plain = plain.replace(",", "").replace(".", "-").replace(" ", "-")
     return root / f"{plain}-{seed}"
 

@@ -16,7 +16,7 @@ use crate::launch::{
         complete, open_device,
     },
     run_args::{AnyRunArgs, NewRunArgs, OF_ANY_ROBOT, add_count},
-    warm_start::{Fork, InitFrom},
+    warm_start::{Fork, InitFrom, OBSERVATION_KEYS},
 };
 
 /// Begins a run. `changes` are keys set by flags of the command.
@@ -166,7 +166,7 @@ fn branch_off(
         let (size, wanted) = (environment.observation_size(), state.shape().observation);
         if size != wanted || environment.privileged_size() != state.shape().privileged {
             let why = format!("`--fork`: this configuration has {size} observations, and the networks take {wanted}");
-            return Err(Usage(why + "; keep env.observation").into());
+            return Err(Usage(format!("{why}; keep {OBSERVATION_KEYS}")).into());
         }
         if launcher.command == RunCommand::Train {
             check_fragments(&config, size, state.shape().action)?;

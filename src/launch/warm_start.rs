@@ -32,6 +32,10 @@ use crate::{
 /// Key of the learning rate to begin with.
 const RATE: &str = "ppo.learning_rate";
 
+/// Keys that choose the entries of an observation.
+pub const OBSERVATION_KEYS: &str = "env.observation, env.exclude_current_positions_from_observation, env.include_…, \
+                                    velocity.history and velocity.height_scan";
+
 /// Policy that a new run begins with.
 #[derive(Clone)]
 pub struct InitFrom {
@@ -81,7 +85,7 @@ impl InitFrom {
         (theirs != ours).then(|| {
             format!(
                 "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of \
-                 this run have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
+                 this run have {}, {} and {:?}; use the same robot and policy.hidden, and the same {OBSERVATION_KEYS}",
                 theirs.observation, theirs.action, theirs.hidden, ours.observation, ours.action, ours.hidden
             )
         })

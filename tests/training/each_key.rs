@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use toml::Value;
+use toml::{Table, Value};
 use treadmill_config::{Config, KeyDoc};
 
 use crate::support::*;
@@ -26,14 +26,14 @@ fn another(key: &KeyDoc, value: &Value) -> Option<Value> {
 }
 
 fn array(text: &str) -> Value {
-    format!("list = {text}").parse::<toml::Table>().unwrap()["list"].clone()
+    format!("list = {text}").parse::<Table>().unwrap()["list"].clone()
 }
 
 #[test]
 fn a_resumed_run_refuses_each_of_them_by_name() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
-    let saved: toml::Table = fs::read_to_string(run.join("config.toml")).unwrap().parse().unwrap();
+    let saved: Table = fs::read_to_string(run.join("config.toml")).unwrap().parse().unwrap();
     for key in Config::keys() {
         let (section, name) = key.key.split_once('.').unwrap();
         // Those of an external task are not written for a built-in one.
@@ -45,4 +45,56 @@ fn a_resumed_run_refuses_each_of_them_by_name() {
         assert_eq!(output.status.code(), Some(2), "{given}: {text}");
         assert!(text.contains(key.key), "{given}: {text}");
     }
+}
+
+/// Begins a run with other values of all keys of each section at once, and checks that its configuration has them. Keys that
+/// are refused by name are left out then; returns those.
+fn refused_beside(begin: &[&str]) -> Vec<String> {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let saved: Table = fs::read_to_string(run.join("config.toml")).unwrap().parse().unwrap();
+    let mut refused = Vec::new();
+    for (section, keys) in &saved {
+        let others = Config::keys().into_iter().filter_map(|key| {
+            let name = key.key.strip_prefix(&format!("{section}."))?;
+            // Flags of their own set these.
+            let is_flag = ["run.steps", "rollout.actors"].contains(&key.key);
+            let other = another(&key, keys.get(name)?).filter(|_| !is_flag)?;
+            Some((key.key, other))
+        });
+        let mut given: Vec<(&str, Value)> = others.collect();
+        loop {
+            let pairs: Vec<String> = given.iter().map(|(key, other)| format!("{key}={other}")).collect();
+            let flags = set(&pairs.iter().map(String::as_str).collect::<Vec<_>>()).join("\n");
+            let output = self::run(folder.path(), &begin.iter().copied().chain(flags.lines()).collect::<Vec<_>>());
+            if output.status.success() {
+                break;
+            }
+            let text = stderr(&output);
+            let named = given.iter().position(|(key, _)| text.contains(key));
+            let named = named.unwrap_or_else(|| panic!("{begin:?}, {pairs:?}: {text}"));
+            assert_eq!(output.status.code(), Some(2), "{text}");
+            refused.push(given.remove(named).0.to_string());
+        }
+        let begun = folder.path().join("new");
+        let written: Table = fs::read_to_string(begun.join("config.toml")).unwrap().parse().unwrap();
+        for (key, other) in &given {
+            assert_eq!(written[section].get(&key[section.len() + 1..]), Some(other), "{key}");
+        }
+        fs::remove_dir_all(begun).unwrap();
+    }
+    refused
+}
+
+#[test]
+fn a_fork_has_them_or_refuses_them_by_name() {
+    let refused = refused_beside(&["train", "--fork", "run", "--run-dir", "new", "--steps", "2560", "--actors", "1"]);
+    assert_eq!(refused, [""; 0]);
+}
+
+#[test]
+fn a_run_with_an_initial_policy_has_them_or_refuses_them_by_name() {
+    let begin = ["train", "--init-from", "run", "--preset", "smoke", "--run-dir", "new", "--steps", "512"];
+    let refused = refused_beside(&[&begin[..], &["--actors", "1"]].concat());
+    assert_eq!(refused, [""; 0]);
 }

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Searches for settings with which a robot obeys sooner: trains each candidate on several seeds and tabulates the results.
+
+Usage: robot_search.py target/release/treadmill PRESET MODEL FOLDER [--only NAME ...] [--seeds 1 2 3] [--steps 1500000]
+                       [--csv FILE.csv]
+
+Trains the runs that FOLDER lacks, and tabulates all. Every 100 000 steps, a run is evaluated on ten deterministic episodes. As
+with search.py, two parallel runs share two cores: compare steps, not times.
+"""
+
+import argparse
+import json
+import pathlib
+import shutil
+import statistics
+import sys
+
+from experiments import report
+from experiments.learning.search import folder_of, median, million, note_of, run_all, train_alone
+
+# Changes of each candidate.
+CANDIDATES = {
+    "default": [],
+    "γ 0.98": ["ppo.gamma=0.98"],
+    "γ 0.97": ["ppo.gamma=0.97"],
+    "γ 0.95": ["ppo.gamma=0.95"],
+    "λ 0.9": ["ppo.gae_lambda=0.9"],
+    "λ 0.98": ["ppo.gae_lambda=0.98"],
+    "γ 0.97, λ 0.9": ["ppo.gamma=0.97", "ppo.gae_lambda=0.9"],
+    "γ 0.98, λ 0.9": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9"],
+    "γ 0.97, λ 0.9, first log std −1.3": ["ppo.gamma=0.97", "ppo.gae_lambda=0.9", "policy.init_log_std=-1.3"],
+    "γ 0.97, λ 0.9, first log std −1.3, 3 passes": [
+        "ppo.gamma=0.97", "ppo.gae_lambda=0.9", "policy.init_log_std=-1.3", "ppo.epochs=3",
+    ],
+    "γ 0.97, first log std −1.3": ["ppo.gamma=0.97", "policy.init_log_std=-1.3"],
+    "γ 0.97, first log std −2.3": ["ppo.gamma=0.97", "policy.init_log_std=-2.3"],
+    "γ 0.97, learning rate 1e-3, at most 2e-3": ["ppo.gamma=0.97", "ppo.learning_rate=1e-3", "ppo.learning_rate_max=2e-3"],
+    "γ 0.97, learning rate at least 1e-4": ["ppo.gamma=0.97", "ppo.learning_rate_min=1e-4"],
+    "γ 0.97, target KL 0.02": ["ppo.gamma=0.97", "ppo.target_kl=0.02"],
+    "γ 0.97, 3 passes": ["ppo.gamma=0.97", "ppo.epochs=3"],
+    "γ 0.97, minibatch 256": ["ppo.gamma=0.97", "ppo.minibatch=256"],
+}
+# Return that a run is to reach.
+GOAL = 2400
+
+
+def train(arguments, name, seed):
+    """Trains one run unless it is complete. Restarts an incomplete run."""
+    folder = folder_of(arguments.folder, name, seed)
+    if note_of(folder).exists():
+        return
+    if folder.exists():
+        shutil.rmtree(folder)
+    flags = ["--preset", arguments.preset, "--model", str(arguments.model)]
+    flags += ["--seed", str(seed), "--steps", str(arguments.steps), "--set", "eval.every_steps=100000"]
+    train_alone(arguments.treadmill, folder, flags, CANDIDATES[name])
+    note_of(folder).write_text(json.dumps({"name": name, "seed": seed}) + "\n", encoding="utf-8")
+    print(f"{name}, seed {seed}: {measure(folder)}", file=sys.stderr)
+
+
+def measure(folder):
+    """Returns when a run reached the goal, and the means of its last three evaluations."""
+    evaluations = {}
+    for values in report.by_step(folder).values():
+        if "eval/velocity_error" in values:
+            evaluations[values["eval/total_timesteps"]] = values
+    last = [evaluations[step] for step in sorted(evaluations)[-3:]]
+    late = {tag: statistics.mean(values[f"eval/{tag}"] for values in last) for tag in LATE}
+    reached = (step for step in sorted(evaluations) if evaluations[step]["eval/mean_reward"] >= GOAL)
+    return {"reached": next(reached, None), **late}
+
+
+LATE = ("mean_reward", "velocity_error", "yaw_rate_error", "fall_fraction")
+
+
+def table(folder):
+    """Formats a row per trained candidate."""
+    notes = [json.loads(path.read_text(encoding="utf-8")) for path in folder.glob("*.json")]
+    rows = []
+    for name, changes in CANDIDATES.items():
+        seeds = sorted(note["seed"] for note in notes if note["name"] == name)
+        found = [measure(folder_of(folder, name, seed)) for seed in seeds]
+        if not found:
+            continue
+        steps = [one["reached"] for one in found]
+        reward, velocity, yaw, falls = (statistics.median(one[tag] for one in found) for tag in LATE)
+        settings = "<br>".join(f"`{change}`" for change in changes) or "–"
+        late = [f"{reward:.0f}", f"{velocity:.3f} m/s", f"{yaw:.3f} rad/s", f"{100 * falls:.0f} %"]
+        rows.append([name, settings, ", ".join(map(str, seeds)), million(median(steps)), ", ".join(map(million, steps)), *late])
+    header = ["", "`--set`", "seeds", f"return of {GOAL} after", "each seed", "return at the end", "velocity error"]
+    return report.table([*header, "yaw rate error", "falls"], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("treadmill", type=pathlib.Path)
+    parser.add_argument("preset")
+    parser.add_argument("model", type=pathlib.Path, help="the robot's MJCF file")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--only", nargs="+", choices=CANDIDATES, default=list(CANDIDATES), metavar="NAME")
+    parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
+    parser.add_argument("--steps", type=int, default=1_500_000)
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    runs = [(arguments, name, seed) for seed in arguments.seeds for name in arguments.only]
+    run_all(train, runs, 2)
+    text = table(arguments.folder)
+    print(text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
+
+
+if __name__ == "__main__":
+    main()
