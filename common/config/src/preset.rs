@@ -3,8 +3,8 @@
 use super::ConfigError;
 
 /// Preset of a robot with a built-in card, or with one of its own for "". An action of 1 is four units, so that exploration
-/// begins with 0.66 units. Returns look ahead for about 30 steps, 0.6 s, by which robots obey after half of the steps
-/// (`experiments/learning/robot_settings.csv`).
+/// begins with 0.66 units. Returns fade over 50 steps, a second: over 100, robots obey after twice as many steps, and over
+/// 30, more of them fall (`experiments/learning/robot_settings.csv`).
 macro_rules! velocity {
     ($card:literal) => {
         concat!(velocity!(of $card), "push_mps = [0.0, 0.5]\n")
@@ -14,7 +14,7 @@ macro_rules! velocity {
             "[env]\ntask = \"velocity\"\nrobot = \"",
             $card,
             "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.05\n\
-             [policy]\ninit_log_std = -1.8\n[ppo]\ngamma = 0.97\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n\
+             [policy]\ninit_log_std = -1.8\n[ppo]\ngamma = 0.98\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n\
              [randomisation]\nmass_scale = [0.9, 1.1]\nfloor_friction_scale = [0.6, 1.3]\nmotor_scale = [0.9, 1.1]\n\
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
              action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\n"
