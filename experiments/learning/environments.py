@@ -13,9 +13,7 @@ thread, so that parallel runs do not disturb each other. Compare steps, not time
 import argparse
 import json
 import pathlib
-import shutil
 import statistics
-import sys
 
 from experiments import report
 from experiments.learning import search
@@ -31,16 +29,9 @@ def folder_of(root, label, envs, seed):
 
 def train(binary, root, label, envs, seed, steps, changes):
     """Trains one run unless it is complete."""
-    folder = folder_of(root, label, envs, seed)
-    done = search.note_of(folder)
-    if done.exists():
-        return
-    if folder.exists():
-        shutil.rmtree(folder)
-    search.train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps), "--envs", str(envs)], changes)
+    flags = ["--seed", str(seed), "--steps", str(steps), "--envs", str(envs)]
     note = {"label": label, "envs": envs, "seed": seed, "steps": steps, "changes": changes}
-    done.write_text(json.dumps(note) + "\n", encoding="utf-8")
-    print(f"{label}, {envs} environments, seed {seed}: {search.summary(search.measure(folder))}", file=sys.stderr)
+    search.train(binary, folder_of(root, label, envs, seed), flags, changes, note)
 
 
 def distance_at(folder, steps):

@@ -11,12 +11,10 @@ with search.py, two parallel runs share two cores: compare steps, not times.
 import argparse
 import json
 import pathlib
-import shutil
 import statistics
-import sys
 
 from experiments import report
-from experiments.learning.search import folder_of, median, million, note_of, run_all, train_alone
+from experiments.learning.search import folder_of, median, million, train_candidates
 
 # Discount and trace of the candidates that change something else.
 OTHERS = ["ppo.gamma=0.97", "ppo.gae_lambda=0.95"]
@@ -41,20 +39,8 @@ CANDIDATES = {
 }
 # Return that a run is to reach.
 GOAL = 2400
-
-
-def train(arguments, name, seed):
-    """Trains one run unless it is complete. Restarts an incomplete run."""
-    folder = folder_of(arguments.folder, name, seed)
-    if note_of(folder).exists():
-        return
-    if folder.exists():
-        shutil.rmtree(folder)
-    flags = ["--preset", arguments.preset, "--model", str(arguments.model)]
-    flags += ["--seed", str(seed), "--steps", str(arguments.steps), "--set", "eval.every_steps=100000"]
-    train_alone(arguments.treadmill, folder, flags, CANDIDATES[name])
-    note_of(folder).write_text(json.dumps({"name": name, "seed": seed}) + "\n", encoding="utf-8")
-    print(f"{name}, seed {seed}: {measure(folder)}", file=sys.stderr)
+# What the last evaluations are judged by.
+LATE = ("mean_reward", "velocity_error", "yaw_rate_error", "fall_fraction")
 
 
 def measure(folder):
@@ -67,9 +53,6 @@ def measure(folder):
     late = {tag: statistics.mean(values[f"eval/{tag}"] for values in last) for tag in LATE}
     reached = (step for step in sorted(evaluations) if evaluations[step]["eval/mean_reward"] >= GOAL)
     return {"reached": next(reached, None), **late}
-
-
-LATE = ("mean_reward", "velocity_error", "yaw_rate_error", "fall_fraction")
 
 
 def table(folder):
@@ -100,9 +83,9 @@ def main():
     parser.add_argument("--steps", type=int, default=1_500_000)
     parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    runs = [(arguments, name, seed) for seed in arguments.seeds for name in arguments.only]
-    run_all(train, runs, 2)
+    flags = ["--preset", arguments.preset, "--model", str(arguments.model), "--steps", str(arguments.steps)]
+    flags += ["--set", "eval.every_steps=100000"]
+    train_candidates(arguments.treadmill, arguments.folder, CANDIDATES, arguments.only, arguments.seeds, flags, 2)
     text = table(arguments.folder)
     print(text)
     if arguments.csv:

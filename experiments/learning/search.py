@@ -50,8 +50,14 @@ def note_of(folder):
     return folder.parent / f"{folder.name}.json"
 
 
-def train_alone(binary, folder, flags, changes):
-    """Trains a run to its last step with one actor process and one update thread."""
+def train(binary, folder, flags, changes, note):
+    """Trains a run with one actor process and one update thread, unless its note says that it is complete. Restarts one that
+    is not."""
+    done = note_of(folder)
+    if done.exists():
+        return
+    if folder.exists():
+        shutil.rmtree(folder)
     command = [str(binary), "train", "--run-dir", str(folder), "--no-progress", "--json", *flags]
     for change in ["rollout.actors=1", "learner.threads=1", *changes]:
         command += ["--set", change]
@@ -60,6 +66,19 @@ def train_alone(binary, folder, flags, changes):
         sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
     if json.loads(run.stdout.splitlines()[-1])["stopped"]:
         sys.exit(f"{folder} was stopped before its last step")
+    done.write_text(json.dumps(note) + "\n", encoding="utf-8")
+    print(f"{folder.name} is trained", file=sys.stderr)
+
+
+def train_candidates(binary, root, candidates, names, seeds, flags, jobs):
+    """Trains each named candidate with each seed, `jobs` at once."""
+
+    def train_one(seed, name):
+        seeded = ["--seed", str(seed), *flags]
+        train(binary, folder_of(root, name, seed), seeded, candidates[name], {"name": name, "seed": seed})
+
+    root.mkdir(parents=True, exist_ok=True)
+    run_all(train_one, [(seed, name) for seed in seeds for name in names], jobs)
 
 
 def run_all(train_one, runs, jobs):
@@ -67,19 +86,6 @@ def run_all(train_one, runs, jobs):
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for job in [pool.submit(train_one, *run) for run in runs]:
             job.result()
-
-
-def train(binary, root, name, seed, steps):
-    """Trains one run unless it is complete. Restarts an incomplete run."""
-    folder = folder_of(root, name, seed)
-    done = note_of(folder)
-    if done.exists():
-        return
-    if folder.exists():
-        shutil.rmtree(folder)
-    train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps)], CANDIDATES[name])
-    done.write_text(json.dumps({"name": name, "seed": seed, "steps": steps}) + "\n", encoding="utf-8")
-    print(f"{name}, seed {seed}: {summary(measure(folder))}", file=sys.stderr)
 
 
 def measure(folder):
@@ -106,12 +112,6 @@ def measure(folder):
         "falls": late("eval/fall_fraction"),
         "training_return": by_step[max(by_step)]["rollout/ep_rew_mean"],
     }
-
-
-def summary(found):
-    """Formats one run as one line."""
-    steps = [f"{metres} m after {million(found[f'to_{metres}_m'])}" for metres in (5, 10, 20)]
-    return f"{', '.join(steps)}; at the end {found['distance_m']:.1f} m, {100 * found['falls']:.0f} % fall"
 
 
 def million(steps):
@@ -156,9 +156,8 @@ def main():
     arguments = parser.parse_args()
     *binary, root = arguments.paths
     if binary:
-        root.mkdir(parents=True, exist_ok=True)
-        runs = [(name, seed) for name in arguments.only for seed in arguments.seeds]
-        run_all(lambda name, seed: train(binary[0], root, name, seed, arguments.steps), runs, arguments.jobs)
+        steps = ["--steps", str(arguments.steps)]
+        train_candidates(binary[0], root, CANDIDATES, arguments.only, arguments.seeds, steps, arguments.jobs)
     text = table(root)
     print(text)
     if arguments.csv:

@@ -65,8 +65,8 @@ fn refused_beside(begin: &[&str]) -> Vec<String> {
         let mut given: Vec<(&str, Value)> = others.collect();
         loop {
             let pairs: Vec<String> = given.iter().map(|(key, other)| format!("{key}={other}")).collect();
-            let flags = set(&pairs.iter().map(String::as_str).collect::<Vec<_>>()).join("\n");
-            let output = self::run(folder.path(), &begin.iter().copied().chain(flags.lines()).collect::<Vec<_>>());
+            let flags = set(&pairs.iter().map(String::as_str).collect::<Vec<_>>());
+            let output = self::run(folder.path(), &[begin, &flags[..]].concat());
             if output.status.success() {
                 break;
             }
