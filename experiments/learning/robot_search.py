@@ -55,8 +55,8 @@ def measure(folder):
     return {"reached": next(reached, None), **late}
 
 
-def table(folder):
-    """Formats a row per trained candidate."""
+def table(folder, what):
+    """Formats a row per trained candidate of `what`."""
     notes = [json.loads(path.read_text(encoding="utf-8")) for path in folder.glob("*.json")]
     rows = []
     for name in CANDIDATES:
@@ -68,7 +68,7 @@ def table(folder):
         reward, velocity, yaw, falls = (statistics.median(one[tag] for one in found) for tag in LATE)
         late = [f"{reward:.0f}", f"{velocity:.3f} m/s", f"{yaw:.3f} rad/s", f"{100 * falls:.0f} %"]
         rows.append([name, ", ".join(map(str, seeds)), million(median(steps)), ", ".join(map(million, steps)), *late])
-    header = ["settings", "seeds", f"return of {GOAL} after", "each seed", "return at the end", "velocity error"]
+    header = [f"settings of {what}", "seeds", f"return of {GOAL} after", "each seed", "return at the end", "velocity error"]
     return report.table([*header, "yaw rate error", "falls"], rows)
 
 
@@ -86,7 +86,7 @@ def main():
     flags = ["--preset", arguments.preset, "--model", str(arguments.model), "--steps", str(arguments.steps)]
     flags += ["--set", "eval.every_steps=100000"]
     train_candidates(arguments.treadmill, arguments.folder, CANDIDATES, arguments.only, arguments.seeds, flags, 2)
-    text = table(arguments.folder)
+    text = table(arguments.folder, f"`{arguments.preset}`, {million(arguments.steps)} steps")
     print(text)
     if arguments.csv:
         report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
