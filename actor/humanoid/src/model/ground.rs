@@ -72,11 +72,19 @@ impl HeightField {
     /// Returns the height (m) of the surface in the world; `None` beyond the edges.
     #[must_use]
     pub fn height_at(&self, x_m: f64, y_m: f64) -> Option<f64> {
-        Some(self.surface_at(x_m, y_m)?.0)
+        Some(self.triangle_at(x_m, y_m)?.0)
     }
 
     /// Returns the height (m, world) and the upward unit normal of the triangle at a place; `None` beyond the edges.
     pub(crate) fn surface_at(&self, x_m: f64, y_m: f64) -> Option<(f64, Vector3<f64>)> {
+        let (height_m, rises_m) = self.triangle_at(x_m, y_m)?;
+        let cell_m = [2.0 * self.half_x_m / (self.columns - 1) as f64, 2.0 * self.half_y_m / (self.rows - 1) as f64];
+        let normal = Vector3::new(-rises_m[0] / cell_m[0], -rises_m[1] / cell_m[1], 1.0).normalize();
+        Some((height_m, normal))
+    }
+
+    /// Returns the height (m, world) at a place, and by how much the triangle there rises (m) along the cell's x and y.
+    fn triangle_at(&self, x_m: f64, y_m: f64) -> Option<(f64, [f64; 2])> {
         let (column, across) = cell(x_m - self.centre_m.x, self.half_x_m, self.columns)?;
         let (row, along) = cell(y_m - self.centre_m.y, self.half_y_m, self.rows)?;
         let corner =
@@ -89,9 +97,7 @@ impl HeightField {
             let side = corner(1, 0)?;
             (near + along * (side - near) + across * (far - side), [far - side, side - near])
         };
-        let cell_m = [2.0 * self.half_x_m / (self.columns - 1) as f64, 2.0 * self.half_y_m / (self.rows - 1) as f64];
-        let normal = Vector3::new(-rises_m[0] / cell_m[0], -rises_m[1] / cell_m[1], 1.0).normalize();
-        Some((self.centre_m.z + above_m, normal))
+        Some((self.centre_m.z + above_m, rises_m))
     }
 
     pub(crate) fn check(&self) -> Result<(), ModelError> {

@@ -30,7 +30,7 @@ use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
-use self::observation::Layout;
+use self::observation::{Layout, View};
 pub use self::observation::{TERMS, TermRow};
 use self::rewards::pose_weights;
 pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
@@ -174,15 +174,19 @@ impl VelocityTask {
         Ok(task)
     }
 
-    fn base(&self, physics: &Physics) -> BaseMotion {
+    /// Returns how the base moves, and the heights of the ground around it (m, world); 0 if nothing asks for them.
+    fn base(&self, physics: &Physics) -> (BaseMotion, [f64; SCAN_POINTS]) {
         let position = physics.position();
         let mut base = BaseMotion::new(position, physics.velocity(), physics.ground_height_m(position[0], position[1]));
+        let mut around_m = [0.0; SCAN_POINTS];
+        if self.ground.is_some() || self.config.height_scan {
+            around_m = ground_around(physics, [position[0], position[1]], base.heading_rad);
+        }
         if self.ground.is_some() {
             // Stairs and gaps just below the base say little about how it stands.
-            let around = ground_around(physics, [position[0], position[1]], base.heading_rad);
-            base.height_m = position[2] - around.sum::<f64>() / SCAN_POINTS as f64;
+            base.height_m = position[2] - around_m.iter().sum::<f64>() / SCAN_POINTS as f64;
         }
-        base
+        (base, around_m)
     }
 
     /// Adopts the curriculum's factor on the ranges of commands.
@@ -249,7 +253,7 @@ impl Task for VelocityTask {
         let bias_rad = self.encoder_bias_rad;
         self.encoder_errors_rad.fill_with(|| (2.0 * encoders.random::<f64>() - 1.0) * bias_rad);
         self.draw(0);
-        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, self.base(physics).heading_rad));
+        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, self.base(physics).0.heading_rad));
         self.standing = Standing::default();
         self.episode_steps = 0;
         self.actions.fill(0.0);
@@ -271,7 +275,7 @@ impl Task for VelocityTask {
         for (foot, before) in self.feet.iter_mut().enumerate() {
             *before = before.after(physics, self.feet_links[foot], self.feet_standing_m[foot], self.step_s);
         }
-        let base = self.base(physics);
+        let (base, _) = self.base(physics);
         let hinges = HingeMotion {
             angles_rad: physics.joint_angles(),
             rates_radps: physics.joint_rates(),
@@ -334,7 +338,9 @@ impl Task for VelocityTask {
             self.standing = self.standing.after(self.command.stands(), self.is_disturbed(physics));
         }
         self.observed = (self.command, self.rested_s().is_some());
-        self.write_frame(false, physics, noise, &mut seen[newest..]);
+        let view = View::new(self, physics);
+        view.write_frame(false, noise, &mut seen[newest..]);
+        view.write_frame(true, noise, hidden);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {
                 seen.copy_within(newest.., row * width);
@@ -344,7 +350,6 @@ impl Task for VelocityTask {
             self.past.copy_from_slice(seen);
             self.observed_step = Some(self.episode_steps);
         }
-        self.write_frame(true, physics, noise, hidden);
     }
 
     fn command(&self) -> Option<[f64; 3]> {

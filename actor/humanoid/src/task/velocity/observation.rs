@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::command::STANDING_COMMAND;
 use super::feet::FEET;
 use super::rewards::BaseMotion;
-use super::scan::{SCAN_MAX_M, SCAN_POINTS, ground_around, opposite_point};
+use super::scan::{SCAN_MAX_M, SCAN_POINTS, opposite_point};
 use super::{ObservationTerm, VelocityTask};
 use crate::config::{EnvironmentConfig, VelocityConfig};
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -157,7 +157,7 @@ pub const TERMS: &[TermRow] = &[
         false => format!("{{period: {:?}}}", config.gait_period_s),
     }),
     TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, noise, write| {
-        view.scanned().for_each(|height_m| write(height_m + noise.position()));
+        view.scan().for_each(|height_m| write(height_m + noise.position()));
     })
     .only_if(|config| config.velocity.height_scan),
     TermRow::new("base_lin_vel", "m/s", "heading", Entries::Signs(&[1.0, -1.0, 1.0]), |view, _, write| {
@@ -178,25 +178,40 @@ pub const TERMS: &[TermRow] = &[
         view.task.feet.iter().for_each(|foot| write(foot.lift_m));
     })
     .privileged(),
-    TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, _, write| view.scanned().for_each(write))
+    TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, _, write| view.scan().for_each(write))
         .privileged()
         .only_if(|config| !config.ground.kinds.is_empty()),
 ];
 
 /// What the terms show.
-struct View<'a> {
+pub(super) struct View<'a> {
     task: &'a VelocityTask,
     physics: &'a Physics,
     base: BaseMotion,
+    /// Heights of the ground around the base (m, world).
+    around_m: [f64; SCAN_POINTS],
 }
 
-impl View<'_> {
+impl<'a> View<'a> {
+    /// Returns what there is to see now.
+    pub(super) fn new(task: &'a VelocityTask, physics: &'a Physics) -> Self {
+        let (base, around_m) = task.base(physics);
+        Self { task, physics, base, around_m }
+    }
+
     /// Returns how much higher the ground around the base is than where the robot would stand in the default pose (m).
-    fn scanned(&self) -> impl Iterator<Item = f64> {
-        let position = self.physics.position();
-        let standing_m = position[2] - self.task.body.height_m;
-        ground_around(self.physics, [position[0], position[1]], self.base.heading_rad)
-            .map(move |ground_m| (ground_m - standing_m).clamp(-SCAN_MAX_M, SCAN_MAX_M))
+    fn scan(&self) -> impl Iterator<Item = f64> {
+        let standing_m = self.physics.position()[2] - self.task.body.height_m;
+        self.around_m.iter().map(move |ground_m| (ground_m - standing_m).clamp(-SCAN_MAX_M, SCAN_MAX_M))
+    }
+
+    /// Writes what the policy observes, or what only the critic observes. Does not allocate.
+    pub(super) fn write_frame(&self, is_privileged: bool, noise: &mut SensorNoise, frame: &mut [f32]) {
+        let mut numbers = frame.iter_mut();
+        let mut write = |number: f64| *numbers.next().expect("the terms fill the frame") = number as f32;
+        for row in self.task.layout.frame(is_privileged) {
+            (row.write)(self, noise, &mut write);
+        }
     }
 }
 
@@ -240,23 +255,5 @@ impl Layout {
     fn frame(&self, is_privileged: bool) -> &[&'static TermRow] {
         let of_policy = self.rows.iter().filter(|row| !row.is_privileged).count();
         if is_privileged { &self.rows[of_policy..] } else { &self.rows[..of_policy / self.history] }
-    }
-}
-
-impl VelocityTask {
-    /// Writes what the policy observes now, or what only the critic observes. Does not allocate.
-    pub(super) fn write_frame(
-        &self,
-        is_privileged: bool,
-        physics: &Physics,
-        noise: &mut SensorNoise,
-        frame: &mut [f32],
-    ) {
-        let view = View { task: self, physics, base: self.base(physics) };
-        let mut numbers = frame.iter_mut();
-        let mut write = |number: f64| *numbers.next().expect("the terms fill the frame") = number as f32;
-        for row in self.layout.frame(is_privileged) {
-            (row.write)(&view, noise, &mut write);
-        }
     }
 }

@@ -18,9 +18,9 @@ pub(super) fn opposite_point(index: usize) -> usize {
 
 /// Returns the heights of the ground (m, world) around a place: rows from the right to the left of this heading, each
 /// from the back to the front.
-pub(super) fn ground_around(physics: &Physics, [x_m, y_m]: [f64; 2], heading_rad: f64) -> impl Iterator<Item = f64> {
+pub(super) fn ground_around(physics: &Physics, [x_m, y_m]: [f64; 2], heading_rad: f64) -> [f64; SCAN_POINTS] {
     let (sin, cos) = heading_rad.sin_cos();
-    (0..SCAN_POINTS).map(move |index| {
+    std::array::from_fn(|index| {
         let offset_m = |number: usize, count: usize| SCAN_SPACING_M * (number as f64 - (count - 1) as f64 / 2.0);
         let (forward, left) =
             (offset_m(index % SCAN_GRID[0], SCAN_GRID[0]), offset_m(index / SCAN_GRID[0], SCAN_GRID[1]));
