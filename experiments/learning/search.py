@@ -31,6 +31,8 @@ CANDIDATES = {
     "λ 0.9": ["ppo.gae_lambda=0.9"],
     "γ 0.98, λ 0.9": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9"],
     "γ 0.985, λ 0.9": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9"],
+    "γ 0.985, λ 0.9, the batch grows": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9", "ppo.batch_growth_steps=1000000"],
+    "γ 0.985, λ 0.9, target KL 0.02": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9", "ppo.target_kl=0.02"],
     "γ 0.98, λ 0.9, the batch grows": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9", "ppo.batch_growth_steps=1000000"],
     "3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3"],
     "minibatch 256, 3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3", "ppo.minibatch=256"],

@@ -16,12 +16,15 @@ use crate::{
 
 /// Preset of the velocity task for any robot.
 pub const OF_ANY_ROBOT: &str = "velocity";
+/// Preset of tasks that are not built in.
+const OF_OWN_TASK: &str = "own-task";
 
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, sim2sim, smoke, or that of a
-    /// robot, which --model gives: g1, g1-29, g1-rough, h1, t1, or velocity (the default with --task velocity) for any.
+    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, sim2sim, smoke, own-task (the
+    /// default for tasks that are not built in), or that of a robot, which --model gives: g1, g1-29, g1-rough, h1, t1, or
+    /// velocity (the default with --task velocity) for any.
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.
@@ -57,16 +60,18 @@ pub struct NewRunArgs {
 impl NewRunArgs {
     /// Returns the name of the preset.
     pub fn preset(&self) -> &str {
-        let default = if self.is_velocity() { OF_ANY_ROBOT } else { "walk" };
-        self.preset.as_deref().unwrap_or(default)
+        self.preset.as_deref().unwrap_or_else(|| match self.task_name().as_deref() {
+            None => "walk",
+            Some(task) if task == EnvTask::Velocity.name() => OF_ANY_ROBOT,
+            Some(task) if task != EnvTask::External.name() && EnvTask::NAMES.contains(&task) => "walk",
+            Some(_) => OF_OWN_TASK,
+        })
     }
 
-    /// Returns whether flags or configuration file choose the velocity task.
-    fn is_velocity(&self) -> bool {
-        match &self.task {
-            Some(name) => name == EnvTask::Velocity.name(),
-            None => self.given("env.task").is_some_and(|task| task.as_str() == Some(EnvTask::Velocity.name())),
-        }
+    /// Returns the task that flags or configuration file choose, if they do.
+    fn task_name(&self) -> Option<String> {
+        let given = |key| self.given(key)?.as_str().filter(|name| !name.is_empty()).map(str::to_owned);
+        self.task.clone().or_else(|| given("env.own_task")).or_else(|| given("env.task"))
     }
 
     /// Adds the file, the keys and the task, in this order, then `changes`, which are keys of other flags, and the seed.
@@ -196,4 +201,28 @@ fn task_keys(name: &str, tasks: &TaskRegistry) -> Result<Vec<(&'static str, toml
         )));
     }
     Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_humanoid_begins_with_its_own_recipe() {
+        for (task, set, preset) in [
+            (None, &[][..], "walk"),
+            (None, &["env.task=humanoid-v4", "env.own_task="], "walk"),
+            (Some("humanoid-v5"), &["env.task=velocity"], "walk"),
+            (None, &["env.task=velocity"], "velocity"),
+            (Some("external"), &[], "own-task"),
+            (Some("gymnasium/Humanoid-v5"), &[], "own-task"),
+            (None, &["env.own_task=squat"], "own-task"),
+        ] {
+            let set = set.iter().map(ToString::to_string).collect();
+            let args = NewRunArgs { task: task.map(str::to_owned), set, ..NewRunArgs::default() };
+            assert_eq!(args.preset(), preset, "{args:?}");
+        }
+        let args = NewRunArgs { preset: Some("g1".into()), task: Some("external".into()), ..NewRunArgs::default() };
+        assert_eq!(args.preset(), "g1");
+    }
 }
