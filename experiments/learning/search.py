@@ -31,7 +31,7 @@ CANDIDATES = {
     "λ 0.9": ["ppo.gae_lambda=0.9"],
     "γ 0.98, λ 0.9": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9"],
     "γ 0.985, λ 0.9": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9"],
-    "γ 0.985, λ 0.9, the batch grows": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9", "ppo.batch_growth_steps=1000000"],
+    "γ 0.985, λ 0.9, the batch grows, as in `walk`": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9", "ppo.batch_growth_steps=1000000"],
     "γ 0.985, λ 0.9, target KL 0.02": ["ppo.gamma=0.985", "ppo.gae_lambda=0.9", "ppo.target_kl=0.02"],
     "γ 0.98, λ 0.9, the batch grows": ["ppo.gamma=0.98", "ppo.gae_lambda=0.9", "ppo.batch_growth_steps=1000000"],
     "3 passes": ["ppo.target_kl=0.03", "ppo.epochs=3"],
@@ -160,8 +160,9 @@ def main():
     arguments = parser.parse_args()
     *binary, root = arguments.paths
     if binary:
-        steps = ["--steps", str(arguments.steps)]
-        train_candidates(binary[0], root, CANDIDATES, arguments.only, arguments.seeds, steps, arguments.jobs)
+        # The preset without keys of its own.
+        flags = ["--preset", "own-task", "--steps", str(arguments.steps)]
+        train_candidates(binary[0], root, CANDIDATES, arguments.only, arguments.seeds, flags, arguments.jobs)
     text = table(root)
     print(text)
     if arguments.csv:

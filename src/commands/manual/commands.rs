@@ -102,3 +102,122 @@ fn choices(argument: &Arg) -> String {
     let named: Vec<String> = values.iter().map(|value| format!("`{}`", value.get_name())).collect();
     if takes_values && !named.is_empty() { format!(". One of {}.", named.join(", ")) } else { String::new() }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::{fs, path::Path};
+
+    use clap::{CommandFactory, Parser, error::ErrorKind};
+
+    use crate::Cli;
+
+    const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+    /// Folders of sources whose messages name commands, and of pages.
+    const FOLDERS: [&str; 8] = ["src", "learner", "actor", "common", "watch", "python", "deploy", "docs"];
+
+    /// Reads the sources and pages below a folder, without tests of sources.
+    fn read(folder: &Path, texts: &mut Vec<(String, String)>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+            match path.is_dir() {
+                true if path.ends_with("tests") || path.ends_with("target") => {}
+                true => read(&path, texts),
+                false if path.to_string_lossy().ends_with("_tests.rs") => {}
+                false if ["rs", "md", "py", "sh", "yml", "yaml"].contains(&kind.as_str()) => {
+                    let text = fs::read_to_string(&path).unwrap();
+                    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+                    // A string or comment may go on in the next line.
+                    let lines = text.lines().map(|line| line.trim_start_matches([' ', '/', '!', '#']));
+                    let joined = lines.fold(String::new(), |text, line| match text.strip_suffix('\\') {
+                        Some(begun) => format!("{begun}{line}"),
+                        None => format!("{text}\n{line}"),
+                    });
+                    texts.push((path.display().to_string(), joined));
+                }
+                false => {}
+            }
+        }
+    }
+
+    /// Returns the commands of a text: between backticks, after two blanks or a colon, or at the start of a line.
+    fn commands(text: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        for (start, _) in text.match_indices("treadmill ") {
+            let (before, rest) = (&text[..start], &text[start..]);
+            let ends: &[&str] = match before {
+                _ if before.ends_with('`') => &["`"],
+                _ if before.ends_with('\n') || before.ends_with("  ") => {
+                    &["\n", "  ", ", ", "\"", " | ", " > ", " &", "`"]
+                }
+                _ if before.ends_with(": ") || before.ends_with('"') => &["\n", ", ", "\"", " (", "`", ";"],
+                _ => continue,
+            };
+            let is_unquoted = |at: &usize| rest[..*at].matches('\'').count() % 2 == 0;
+            let places = ends.iter().flat_map(|end| rest.match_indices(end)).map(|(at, _)| at);
+            let end = places.filter(is_unquoted).min().unwrap_or(rest.len());
+            found.push(rest[..end].replace('\n', " "));
+        }
+        found
+    }
+
+    /// Replaces what a program fills in: a word of its own, or nothing after a word.
+    fn filled(command: &str) -> String {
+        let mut text = String::new();
+        for (number, part) in command.split('{').enumerate() {
+            let (_, after) = if number == 0 { ("", part) } else { part.split_once('}').unwrap_or((part, "")) };
+            if number > 0 && text.ends_with([' ', '/', '\'']) {
+                text.push('x');
+            }
+            text.push_str(after);
+        }
+        text
+    }
+
+    #[test]
+    fn every_command_that_a_program_prints_or_a_page_shows_is_one() {
+        let mut texts = Vec::new();
+        FOLDERS.iter().for_each(|folder| read(&Path::new(ROOT).join(folder), &mut texts));
+        texts.push((
+            "README.md".into(),
+            format!("\n{}", fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap()),
+        ));
+        let names: Vec<String> = Cli::command().get_subcommands().map(|one| one.get_name().to_owned()).collect();
+        let (mut tried, mut wrong) = (0, Vec::new());
+        for (path, text) in &texts {
+            for command in commands(text) {
+                let command = filled(&command);
+                let Some(words) = shlex::split(&command) else {
+                    wrong.push(format!("{path}: {command}: not a line of a shell"));
+                    continue;
+                };
+                let is_name = |word: &String| word.chars().all(|letter| letter.is_ascii_lowercase());
+                match words.get(1) {
+                    Some(name) if names.contains(name) => {}
+                    Some(name) if is_name(name) => {
+                        wrong.push(format!("{path}: {command}: there is no `{name}`"));
+                        continue;
+                    }
+                    _ => continue,
+                }
+                tried += 1;
+                let Err(error) = Cli::try_parse_from(&words) else { continue };
+                // A command or flag may be named without its values, and a value may be a placeholder.
+                let is_named = words[1..].iter().all(is_name) || words[words.len() - 1].starts_with('-');
+                let is_right = match error.kind() {
+                    ErrorKind::ValueValidation | ErrorKind::DisplayHelp => true,
+                    ErrorKind::MissingRequiredArgument
+                    | ErrorKind::MissingSubcommand
+                    | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+                    | ErrorKind::InvalidValue => is_named,
+                    _ => false,
+                };
+                if !is_right {
+                    wrong.push(format!("{path}: {command}: {}", error.to_string().lines().next().unwrap_or_default()));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        assert!(tried > 150, "{tried} commands");
+    }
+}
