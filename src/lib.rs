@@ -81,6 +81,12 @@ enum Command {
     Reference(manual::ReferenceArgs),
 }
 
+/// Returns the definition of the command line.
+#[must_use]
+pub fn command_line() -> clap::Command {
+    Cli::command()
+}
+
 /// Runs the command named by the process's arguments, and returns the exit code. `own_tasks` are tasks of the calling
 /// program, under the names for `--task NAME`; see `examples/own_task.rs`.
 ///
@@ -137,12 +143,12 @@ fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
             return output::check_written().map_or_else(|why| exit_code::exit_code(Err(why)), |()| verdict);
         }
         Command::Completions(args) => {
-            manual::completions(&args, Cli::command());
+            manual::completions(&args, command_line());
             Ok(())
         }
-        Command::Man(args) => manual::man(&args, Cli::command()),
+        Command::Man(args) => manual::man(&args, command_line()),
         Command::Reference(args) => {
-            manual::reference(&args, Cli::command());
+            manual::reference(&args, command_line());
             Ok(())
         }
     };

@@ -29,7 +29,7 @@ def folder_of(root, label, envs, seed):
 
 def train(binary, root, label, envs, seed, steps, changes):
     """Trains one run unless it is complete."""
-    flags = ["--seed", str(seed), "--steps", str(steps), "--envs", str(envs)]
+    flags = ["--preset", "own-task", "--seed", str(seed), "--steps", str(steps), "--envs", str(envs)]
     note = {"label": label, "envs": envs, "seed": seed, "steps": steps, "changes": changes}
     search.train(binary, folder_of(root, label, envs, seed), flags, changes, note)
 

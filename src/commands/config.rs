@@ -14,7 +14,7 @@ use crate::{launch::output::say, shared::existing_file::existing_file};
 pub struct ConfigArgs {
     /// Key or section to explain, as in ppo.gamma or ppo; by default the whole configuration is printed as TOML.
     key: Option<String>,
-    /// Preset to start from: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
+    /// Preset to start from, one of those of `train`.
     #[arg(long, value_name = "NAME", default_value = "walk")]
     preset: String,
     /// Configuration file (TOML), applied over the preset.

@@ -4,12 +4,15 @@
 
 use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
 
+use clap::error::ErrorKind;
+
 use crate::{
     support::*,
     tidy::{assert_none, files, root},
 };
 use treadmill_config::Config;
 use treadmill_learner::metrics::catalogue::{METRICS, MetricRow};
+use treadmill_rl::command_line;
 
 /// Most words of the page of metrics.
 const METRICS_WORDS_MAX: usize = 1750;
@@ -168,4 +171,113 @@ fn the_installation_includes_pages_and_completions() {
     ] {
         assert!(fs::metadata(folder.path().join(file)).is_ok_and(|file| file.len() > 100), "{file}");
     }
+}
+
+/// Joins strings and comments that go on in the next line, without tests of a source.
+fn lines_joined(text: &str) -> String {
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    let lines = text.lines().map(|line| line.trim_start_matches([' ', '/', '!', '#']));
+    lines.fold(String::new(), |text, line| match text.strip_suffix('\\') {
+        Some(begun) => format!("{begun}{line}"),
+        None => format!("{text}\n{line}"),
+    })
+}
+
+/// Returns the commands of a text: between backticks, after two blanks or a colon, or at the start of a line.
+fn commands_in(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (start, _) in text.match_indices("treadmill ") {
+        let (before, rest) = (&text[..start], &text[start..]);
+        let is_inside = before.rsplit('\n').next().is_some_and(|line| line.starts_with("ip netns exec "));
+        let ends: &[&str] = match before {
+            _ if before.ends_with('`') => &["`", " >"],
+            _ if before.ends_with('\n') || before.ends_with("  ") || is_inside => {
+                &["\n", "  ", ", ", "\"", " | ", " >", " &", "`"]
+            }
+            _ if before.ends_with(": ") || before.ends_with('"') => &["\n", ", ", "\"", " (", "`", ";"],
+            _ => continue,
+        };
+        // An apostrophe within a word is none.
+        let is_unquoted = |at: &usize| {
+            let opened = rest[..*at].matches(" '").count() + rest[..*at].matches("='").count();
+            opened == 0 || rest[..*at].matches('\'').count() % 2 == 0
+        };
+        let places = ends.iter().flat_map(|end| rest.match_indices(end)).map(|(at, _)| at);
+        let end = places.filter(is_unquoted).min().unwrap_or(rest.len());
+        found.push(rest[..end].replace('\n', " "));
+    }
+    found
+}
+
+/// Replaces what a program fills in: a word of its own, or nothing after a word.
+fn filled(command: &str) -> String {
+    let mut text = String::new();
+    for (number, part) in command.split('{').enumerate() {
+        let (_, after) = if number == 0 { ("", part) } else { part.split_once('}').unwrap_or((part, "")) };
+        if number > 0 && text.ends_with([' ', '/', '\'']) {
+            text.push('x');
+        }
+        text.push_str(after);
+    }
+    text
+}
+
+/// Returns whether a word is no long flag, or one of a command or of its subcommands.
+fn is_flag_of(command: &str, word: &str) -> bool {
+    let Some(flag) = word.strip_prefix("--") else { return true };
+    let flag = flag.split('=').next().unwrap_or_default();
+    let program = command_line();
+    let command = program.find_subcommand(command).unwrap();
+    let mut commands = std::iter::once(command).chain(command.get_subcommands());
+    commands.any(|command| command.get_arguments().any(|argument| argument.get_long() == Some(flag)))
+}
+
+#[test]
+fn every_command_that_a_program_prints_or_a_page_shows_is_one() {
+    let names: Vec<String> = command_line().get_subcommands().map(|one| one.get_name().to_owned()).collect();
+    let is_name = |word: &String| {
+        word.starts_with(|first: char| first.is_ascii_lowercase())
+            && word.chars().all(|letter| matches!(letter, 'a'..='z' | '0'..='9' | '-'))
+    };
+    let (mut tried, mut wrong) = (0, Vec::new());
+    for (path, text) in files(&["rs", "md", "py", "sh", "yml", "yaml"]) {
+        if path.split('/').any(|part| part == "tests") || path.ends_with("_tests.rs") {
+            continue;
+        }
+        for command in commands_in(&lines_joined(&text)) {
+            let command = filled(&command);
+            let Some(words) = shlex::split(&command) else {
+                wrong.push(format!("{path}: {command}: not a line of a shell"));
+                continue;
+            };
+            match words.get(1) {
+                Some(name) if names.contains(name) => {}
+                // The program fills in its name.
+                Some(name) if name != "x" && is_name(name) => {
+                    wrong.push(format!("{path}: {command}: there is no `{name}`"));
+                    continue;
+                }
+                _ => continue,
+            }
+            tried += 1;
+            let Err(error) = command_line().try_get_matches_from(&words) else { continue };
+            // A command or flag may be named without its values, and a value may be a placeholder.
+            let is_named = words[1..].iter().all(is_name) || words[words.len() - 1].starts_with('-');
+            let is_right = match error.kind() {
+                ErrorKind::DisplayHelp => true,
+                // It is the first error, which hides unknown flags.
+                ErrorKind::ValueValidation => words.iter().all(|word| is_flag_of(&words[1], word)),
+                ErrorKind::MissingRequiredArgument
+                | ErrorKind::MissingSubcommand
+                | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+                | ErrorKind::InvalidValue => is_named,
+                _ => false,
+            };
+            if !is_right {
+                wrong.push(format!("{path}: {command}: {}", error.to_string().lines().next().unwrap_or_default()));
+            }
+        }
+    }
+    assert_none(&wrong, "commands are those of the program");
+    assert!(tried > 150, "{tried} commands");
 }

@@ -57,8 +57,8 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("sim2sim", SIM2SIM),
 ];
 
-/// Returns that fade over 67 steps, a second, and growing batches: 61 m after 2 M steps where the defaults reach 38 m. Without
-/// growing batches, more policies fall (`experiments/learning/search.csv`).
+/// Returns that fade over 67 steps, a second, and growing batches: 67, 67 and 54 m after 3 M steps, where the defaults
+/// reach 48, 63 and 45 m after 4 M. Without growing batches more policies fall (`experiments/learning/search.csv`).
 const WALK: &str = "[ppo]\ngamma = 0.985\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n";
 
 /// Assumed differences between two simulators of the same humanoid.
