@@ -2,7 +2,7 @@
 # Begins or resumes the run that the environment describes, so that a learner's container can restart at any time. Passes its
 # arguments to `treadmill learner`, which refuses settings that differ from those of the saved run.
 #
-# TREADMILL_PRESET   preset; default walk, while tasks that are not built in want own-task
+# TREADMILL_PRESET   preset; default walk. Give own-task for tasks that are not built in
 # TREADMILL_RUN      name of the run's folder below /runs; default: the preset
 # TREADMILL_STEPS    environment steps in total; a higher value continues a finished run
 # TREADMILL_SEED     seed of every random stream

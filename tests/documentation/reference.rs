@@ -197,7 +197,7 @@ fn commands_in(text: &str) -> Vec<String> {
             _ if before.ends_with(": ") || before.ends_with('"') => &["\n", ", ", "\"", " (", "`", ";"],
             _ => continue,
         };
-        // An apostrophe within a word is none.
+        // An apostrophe within a word quotes nothing.
         let is_unquoted = |at: &usize| {
             let opened = rest[..*at].matches(" '").count() + rest[..*at].matches("='").count();
             opened == 0 || rest[..*at].matches('\'').count() % 2 == 0
@@ -213,7 +213,7 @@ fn commands_in(text: &str) -> Vec<String> {
 fn filled(command: &str) -> String {
     let mut text = String::new();
     for (number, part) in command.split('{').enumerate() {
-        let (_, after) = if number == 0 { ("", part) } else { part.split_once('}').unwrap_or((part, "")) };
+        let after = if number == 0 { part } else { part.split_once('}').map_or("", |(_, after)| after) };
         if number > 0 && text.ends_with([' ', '/', '\'']) {
             text.push('x');
         }
