@@ -17,7 +17,7 @@ pub enum Outcome {
     Duplicate,
     /// The lag of its policy exceeds `max_policy_lag`.
     TooOld,
-    /// Its policy is unknown, because the learner resumed from an older checkpoint.
+    /// Its policy is unknown: the learner resumed from an older checkpoint, or began the run anew.
     Vanished,
     /// The fragment failed a check, which the reason names.
     Malformed,

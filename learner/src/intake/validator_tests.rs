@@ -66,6 +66,26 @@ fn each_outcome_and_its_count() {
 }
 
 #[test]
+fn a_fragment_of_the_run_that_this_one_replaced_is_dropped_by_rule() {
+    let (mut validator, lineage) = (validator(), lineage(5));
+    let other = Fragment {
+        version: PolicyVersion::new(9, 5),
+        config_hash: 6,
+        observation_size: 2,
+        observations: vec![0.0; 2],
+        last_observations: vec![0.0; 2],
+        physics_version: 3,
+        ..fragment(1, 5)
+    };
+    for _ in 0..4 {
+        assert_eq!(outcome(&mut validator, &other, &lineage), Outcome::Vanished);
+    }
+    assert_eq!((validator.counts.vanished, validator.counts.duplicate, validator.counts.malformed), (1, 3, 0));
+    let claimed = Fragment { version: PolicyVersion::new(1, 5), ..other };
+    assert_eq!(outcome(&mut validator, &claimed, &lineage), Outcome::Malformed);
+}
+
+#[test]
 fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
     let (mut validator, lineage) = (validator(), lineage(5));
     for duplicates in 0..2 {
