@@ -10,6 +10,7 @@ use rustls::{
 };
 use time::OffsetDateTime;
 use treadmill_bus::{Credentials, Role};
+use treadmill_runtime::words::quoted;
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
 use super::finding::{Finding, Severity};
@@ -94,7 +95,7 @@ fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Resul
     check_readable(&certificate_file)?;
     let der = CertificateDer::from_pem_file(&certificate_file).map_err(|why| unreadable(why.to_string()))?;
     let (_, certificate) = X509Certificate::from_der(&der).map_err(|why| unreadable(why.to_string()))?;
-    let validity = check_validity(role, &certificate)?;
+    let validity = check_validity(folder, role, &certificate)?;
     if let Some(why) = rejection(&der, roots) {
         let seen = format!("the {}'s certificate is refused: {why}", role.name());
         return Err(Finding::problem(NAME, seen, SAME_AUTHORITY));
@@ -109,8 +110,15 @@ fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Resul
     Ok(validity)
 }
 
+/// Returns the command that renews certificates: those of `folder` only where their authority can sign.
+fn renewal(folder: &Path) -> String {
+    let signs = folder.join("ca.key").exists();
+    let folder = if signs { quoted(&folder.display().to_string()) } else { "DIR".to_string() };
+    format!("treadmill certs {folder} --renew")
+}
+
 /// Compares a certificate's validity with the clock; returns the finding for a certificate without other problems.
-fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, Finding> {
+fn check_validity(folder: &Path, role: Role, certificate: &X509Certificate) -> Result<Finding, Finding> {
     let (now, role, validity) = (OffsetDateTime::now_utc(), role.name(), certificate.validity());
     let (from, until) = (validity.not_before.to_datetime(), validity.not_after.to_datetime());
     if now < from {
@@ -119,7 +127,7 @@ fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, 
         return Err(Finding::problem(NAME, seen, "set this machine's clock, or wait"));
     }
     if now > until {
-        let remedy = "renew it with `treadmill certs DIR --renew`, and copy it to each machine; or set the clock";
+        let remedy = format!("renew it with `{}`, and copy it to each machine; or set the clock", renewal(folder));
         let seen = format!("the {role}'s certificate expired at {} UTC", date_text(until));
         return Err(Finding::problem(NAME, seen, remedy));
     }
@@ -128,7 +136,7 @@ fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, 
     let named = if hosts.is_empty() { String::new() } else { format!(", for {}", hosts.join(" ")) };
     let seen = format!("the {role}'s is valid until {} UTC, {days} days more{named}", date_text(until));
     Ok(match days {
-        ..RENEWAL_DAYS => Finding::note(NAME, seen, "renew them soon: `treadmill certs DIR --renew`"),
+        ..RENEWAL_DAYS => Finding::note(NAME, seen, format!("renew them soon: `{}`", renewal(folder))),
         _ => Finding::ok(NAME, seen),
     })
 }

@@ -79,7 +79,11 @@ impl Silence {
     }
 
     fn new(finding: Finding, options: &BusOptions, run: Option<&str>) -> Self {
-        Self { seen: finding.seen, remedy: finding.remedy.unwrap_or_default(), check: check_command(options, run) }
+        Self {
+            seen: finding.seen,
+            remedy: finding.remedy.unwrap_or_default(),
+            check: command_at("check", options, run),
+        }
     }
 }
 
@@ -128,9 +132,9 @@ pub fn no_peer(options: &BusOptions) -> Finding {
     route::not_a_learner(&options.connect)
 }
 
-/// Returns the command that examines the way to a learner, quoted for a shell.
-fn check_command(options: &BusOptions, run: Option<&str>) -> String {
-    let mut words = vec!["treadmill check".to_string()];
+/// Returns a command with the flags that lead to a learner, quoted for a shell.
+pub fn command_at(command: &str, options: &BusOptions, run: Option<&str>) -> String {
+    let mut words = vec![format!("treadmill {command}")];
     let mut add = |flag: &str, value: &str| words.push(format!("{flag} {}", quoted(value)));
     options.connect.iter().for_each(|endpoint| add("--connect", endpoint));
     if let Some(run) = run {
@@ -162,7 +166,7 @@ mod tests {
             ..BusOptions::default()
         };
         assert_eq!(
-            check_command(&options, Some("walk")),
+            command_at("check", &options, Some("walk")),
             "treadmill check --connect tls/a:1 --connect tls/b:2 --run walk --tls 'my certs' --insecure"
         );
     }

@@ -15,7 +15,7 @@ use treadmill_learner::{
     },
     training::TrainingError,
 };
-use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock};
+use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock, words::quoted};
 use treadmill_store::{Store, StoreError, Tag};
 
 use crate::launch::{
@@ -115,9 +115,10 @@ impl LearnerRun<'_> {
             }
             Some((manifest, _)) => Err(Usage(format!(
                 "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow \
-                 it with `treadmill learner --standby`, or choose another URL",
+                 it with `treadmill learner --store {} --standby`, or choose another URL",
                 manifest.run,
-                thousands(manifest.env_steps)
+                thousands(manifest.env_steps),
+                quoted(&store.to_string())
             ))
             .into()),
         }

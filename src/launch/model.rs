@@ -12,7 +12,10 @@ use treadmill_humanoid::{
 };
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
-use treadmill_runtime::{error_chain, words::nearest_path};
+use treadmill_runtime::{
+    error_chain,
+    words::{nearest_path, quoted},
+};
 
 use crate::{launch::exit_code::Usage, shared::model_file::ModelFileArgs};
 
@@ -91,10 +94,11 @@ fn found_card(text: &str, file: Option<&Path>) -> Result<String, Usage> {
     if missing.is_empty() {
         return Ok(card);
     }
-    let shown = file.unwrap_or(Path::new("FILE")).display();
+    let shown = file.unwrap_or(Path::new("FILE")).display().to_string();
     Err(Usage(format!(
-        "model file `{shown}`: {}; draft a card by `treadmill robot {shown} --draft card.toml`, and train with --model card.toml",
-        missing.join("; ")
+        "model file `{shown}`: {}; draft a card by `treadmill robot {} --draft card.toml`, and train with --model card.toml",
+        missing.join("; "),
+        quoted(&shown)
     )))
 }
 

@@ -7,7 +7,7 @@ use treadmill_learner::{
         follower::{LoadedState, newest_state},
     },
 };
-use treadmill_runtime::{error_chain, run_folder::RunFolder};
+use treadmill_runtime::{error_chain, run_folder::RunFolder, words::quoted};
 use treadmill_store::{Store, StoreError};
 
 use crate::launch::exit_code::Usage;
@@ -60,7 +60,8 @@ fn load_newest(store: &Store) -> anyhow::Result<Loaded> {
 
 fn newest(store: &Store) -> anyhow::Result<LoadedState> {
     newest_state(store)?.ok_or_else(|| {
-        let why = format!("the store `{store}` holds no run; begin one with `treadmill learner --store {store}`");
+        let url = quoted(&store.to_string());
+        let why = format!("the store `{store}` holds no run; begin one with `treadmill learner --store {url}`");
         Usage(why).into()
     })
 }

@@ -157,8 +157,9 @@ fn a_learner_is_found_by_its_folder_and_a_wrong_run_name_is_reported() {
         assert_ok(&output, name);
     }
     let (verdicts, words) = of(&output, "learner");
-    assert!(verdicts == ["note"] && words.contains("treadmill actor --run walk"), "no actor yet: {words}");
     let endpoint = endpoint(&run_folder);
+    let wanted = format!("start an actor: treadmill actor --connect {endpoint} --run walk");
+    assert!(verdicts == ["note"] && words.contains(&wanted), "no actor yet: {words}");
     assert_ok(&check(folder.path(), &["--connect", &endpoint, "--run", "walk"]), "versions");
     let output = check(folder.path(), &["--connect", &endpoint, "--run", "stroll"]);
     assert_problem(&output, "learner", &["no learner trains a run `stroll`", "with --run: walk"]);

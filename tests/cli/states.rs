@@ -143,22 +143,16 @@ fn printed_commands(lines: &[String]) -> Vec<String> {
 #[test]
 fn every_command_that_a_training_prints_runs_as_printed() {
     let (folder, run_folder) = folders();
-    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().display().to_string();
-    let shell = |command: &str| {
-        let mut shell = std::process::Command::new("sh");
-        shell.args(["-c", &format!("exec {command}")]).current_dir(folder.path());
-        shell.env("PATH", format!("{program}:{}", std::env::var("PATH").unwrap()));
-        shell
-    };
+    let printed = |command: &str| start_printed(folder.path(), command);
     let training = start_endless(folder.path(), &run_folder, "train", &["--no-progress", "--actors", "1"]);
     await_steps(&run_folder, 1024);
     // The banner ends with the line that resumes.
     let mut lines = vec![training.wait_for("  watch     "), training.wait_for("  film      ")];
     lines.push(training.wait_for("  resume    "));
     let [watch, film, resume] = &printed_commands(&lines)[..] else { panic!("{lines:?}") };
-    let mut watching = Running::start(shell(watch));
+    let mut watching = printed(watch);
     watching.wait_for("run");
-    watching = Running::start(shell(film));
+    watching = printed(film);
     assert!(watching.wait().0.success(), "{film}");
     training.signal(libc::SIGINT);
     let (_, lines) = training.wait();
@@ -166,7 +160,7 @@ fn every_command_that_a_training_prints_runs_as_printed() {
     assert!(commands.iter().any(|command| command == resume), "{resume} in {commands:?}");
     let mut resumed = 0;
     for command in &commands {
-        let running = Running::start(shell(command));
+        let running = printed(command);
         if command.contains("--resume") {
             running.wait_for("  resume    ");
             stop(running);
@@ -181,14 +175,82 @@ fn every_command_that_a_training_prints_runs_as_printed() {
         run(folder.path(), &["train", "--preset", "smoke", "--steps", "512", "--run-dir", "done", "--actors", "1"]);
     let lines: Vec<String> = stdout(&finished).lines().map(str::to_string).collect();
     let further = lines.iter().find_map(|line| line.strip_prefix("train it further: ")).expect("the line");
-    assert!(Running::start(shell(further)).wait().0.success(), "{further}");
+    assert!(printed(further).wait().0.success(), "{further}");
     let again = stdout(&run(folder.path(), &["train", "--resume", "done"]));
     let further = again.split("go on with: ").nth(1).expect("the command").trim().to_string();
-    assert!(Running::start(shell(&further)).wait().0.success(), "{further}");
+    assert!(printed(&further).wait().0.success(), "{further}");
     // A run that nothing trains, and one that does not exist.
     let idle = stdout(&run(folder.path(), &["status", "run"]));
     let resume = idle.lines().find_map(|line| line.strip_prefix("  resume     ")).expect("the line");
-    let resumed = Running::start(shell(resume));
+    let resumed = printed(resume);
     resumed.wait_for("  resume    ");
     stop(resumed);
+}
+
+/// Returns the only command in backticks that an output has.
+fn quoted_command(output: &std::process::Output) -> String {
+    let text = stdout(output) + &stderr(output);
+    let mut commands: Vec<&str> = text.split('`').filter(|part| part.starts_with("treadmill ")).collect();
+    commands.dedup();
+    let [command] = commands[..] else { panic!("{text}") };
+    command.to_string()
+}
+
+#[test]
+fn remedies_run_as_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let succeeds = |command: &str| {
+        let (status, lines) = start_printed(folder.path(), command).wait();
+        assert!(status.success(), "{command}: {lines:#?}");
+        lines.join("\n")
+    };
+    // Certificates that end soon, in a folder that a shell would take for two.
+    done(folder.path(), &["certs", "my certs", "--days", "2"]);
+    let renewal = quoted_command(&run(folder.path(), &["check", "--tls", "my certs"]));
+    succeeds(&renewal.replace("--renew", "--renew --bundles bundles"));
+    assert!(!stdout(&run(folder.path(), &["check", "--tls", "my certs"])).contains("--renew"));
+
+    // A learner without actors, and actors that only have their own keys.
+    let learner_run = folder.path().join("learner");
+    let encrypted = ["--listen", "tls/127.0.0.1:0", "--tls", "my certs"];
+    let learner = start_endless(folder.path(), &learner_run, "learner", &encrypted);
+    learner.wait_for("  resume    ");
+    let check = |tls: &str| {
+        let checked = stdout(&run(folder.path(), &["check", "learner", "--tls", tls]));
+        let line = checked.lines().find_map(|line| line.split_once("start an actor: ")).expect(&checked);
+        line.1.to_string()
+    };
+    let without_keys = check("bundles/observer");
+    assert!(without_keys.contains("--tls DIR"), "{without_keys}");
+    let actor = start_printed(folder.path(), &check("my certs"));
+    await_steps(&learner_run, 512);
+    drop(actor);
+    stop(learner);
+
+    // A store without a run, and with one.
+    let url = format!("file://{}/my store", folder.path().display());
+    let start_one = quoted_command(&run(folder.path(), &["status", &url]));
+    assert_eq!(start_one, quoted_command(&run(folder.path(), &["runs", &url])));
+    assert_eq!(start_one, quoted_command(&run(folder.path(), &["check", &url])));
+    let learner = start_printed(folder.path(), &start_one);
+    learner.wait_for("  resume    ");
+    stop(learner);
+    let idle = stdout(&run(folder.path(), &["status", &url]));
+    let resume = idle.lines().find_map(|line| line.strip_prefix("  resume     ")).expect("the line");
+    let resumed = start_printed(folder.path(), resume);
+    resumed.wait_for("  resume    ");
+    stop(resumed);
+
+    // Several runs below a folder.
+    fs::rename(&learner_run, folder.path().join("runs/learner")).unwrap();
+    let listed = stdout(&run(folder.path(), &["runs", "runs"]));
+    let keys = listed.lines().find_map(|line| line.strip_prefix("Configuration keys that differ: ")).expect("the line");
+    assert!(succeeds(keys).contains("run.steps = "), "{keys}");
+
+    // A model in which no feet are found.
+    let ghost = ROBOT_XML.replace("class=\"solid\"", "class=\"solid\" contype=\"0\" conaffinity=\"0\"");
+    fs::write(folder.path().join("my robot.xml"), ghost).unwrap();
+    let draft = quoted_command(&run(folder.path(), &["train", "--task", "velocity", "--model", "my robot.xml"]));
+    succeeds(&draft);
+    assert!(folder.path().join("card.toml").is_file());
 }

@@ -166,14 +166,7 @@ fn a_certificate_that_no_other_side_accepts_is_an_error_at_once() {
 fn printed_commands_start_actors_and_resume_a_learner_with_its_certificates() {
     let (folder, run) = folders();
     done(folder.path(), &["certs", "certs"]);
-    // `treadmill` is on the path.
-    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().display().to_string();
-    let shell = |command: &str| {
-        let mut shell = std::process::Command::new("sh");
-        shell.args(["-c", &format!("exec {command}")]).current_dir(folder.path());
-        shell.env("PATH", format!("{program}:{}", std::env::var("PATH").unwrap()));
-        Running::start(shell)
-    };
+    let shell = |command: &str| start_printed(folder.path(), command);
     let after = |line: String, part: &str| line.split_once(part).unwrap().1.to_string();
     let learner = learner(folder.path(), &run);
     let actor = shell(&after(learner.wait_for("  actors    "), "start some by: "));

@@ -82,6 +82,15 @@ pub fn start_endless(folder: &Path, run: &Path, command: &str, more: &[&str]) ->
     Running::start(command)
 }
 
+/// Starts a command as it was printed, with the binary under test as `treadmill`.
+pub fn start_printed(folder: &Path, command: &str) -> Running {
+    let programs = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().expect("a file's folder").display();
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("exec {command}")]).current_dir(folder).stdin(Stdio::null());
+    shell.env("PATH", format!("{programs}:{}", std::env::var("PATH").unwrap()));
+    Running::start(shell)
+}
+
 /// Stops a process, and asserts that it succeeds.
 pub fn stop(process: Running) {
     process.signal(libc::SIGINT);

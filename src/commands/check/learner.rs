@@ -138,11 +138,32 @@ impl LearnerRoute {
         });
         let findings = |status: RunStatus| {
             let alarms = status.alarms.iter().map(|alarm| Finding::problem(ALARM, alarm.clone(), ALARM_REMEDY));
-            [answers(&status), versions(&status), skew(&status, now_unix_s)]
+            [self.answers(&status), versions(&status), skew(&status, now_unix_s)]
                 .into_iter()
                 .chain(alarms.collect::<Vec<_>>())
         };
         wanted.flat_map(findings).collect()
+    }
+
+    fn answers(&self, status: &RunStatus) -> Finding {
+        let RunStatus { run, host, env_steps, env_steps_wanted, .. } = status;
+        let alive = status.actors.iter().filter(|actor| actor.alive).count();
+        let seen = format!("run `{run}` answers from {host}: {env_steps} of {env_steps_wanted} steps, actors: {alive}");
+        match alive {
+            0 => Finding::note(NAME, seen, format!("start an actor: {}", self.actor_command(run))),
+            _ => Finding::ok(NAME, seen),
+        }
+    }
+
+    fn actor_command(&self, run: &str) -> String {
+        let mut options = self.options.clone();
+        if let Some(credentials) = &mut options.credentials {
+            credentials.role = Role::Actor;
+            if credentials.missing().is_some() {
+                credentials.folder = "DIR".into();
+            }
+        }
+        diagnosis::command_at("actor", &options, Some(run))
     }
 }
 
@@ -152,16 +173,6 @@ fn role(reach: &ReachArgs) -> Role {
     let has_files = |role: &Role| Credentials { folder: folder.clone(), role: *role }.missing().is_none();
     let wanted = [Role::Observer, Role::Operator, Role::Actor, Role::Evaluator, Role::Learner, Role::Router];
     wanted.into_iter().find(has_files).unwrap_or(Role::Observer)
-}
-
-fn answers(status: &RunStatus) -> Finding {
-    let RunStatus { run, host, env_steps, env_steps_wanted, .. } = status;
-    let alive = status.actors.iter().filter(|actor| actor.alive).count();
-    let seen = format!("run `{run}` answers from {host}: {env_steps} of {env_steps_wanted} steps, actors: {alive}");
-    match alive {
-        0 => Finding::note(NAME, seen, format!("start an actor: treadmill actor --run {run}")),
-        _ => Finding::ok(NAME, seen),
-    }
 }
 
 fn versions(status: &RunStatus) -> Finding {

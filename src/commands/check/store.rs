@@ -1,7 +1,7 @@
 //! Diagnosis of the store of a run's state.
 
 use treadmill_learner::leadership::read_manifest;
-use treadmill_runtime::{error_chain, numbers::thousands, seeds};
+use treadmill_runtime::{error_chain, numbers::thousands, seeds, words::quoted};
 use treadmill_store::{
     Store,
     promises::{self, PromiseError},
@@ -23,7 +23,8 @@ pub fn diagnose(url: &str) -> Vec<Finding> {
     match read_manifest(&store) {
         Err(why) => vec![Finding::problem(NAME, error_chain(&why), FAILS)],
         Ok(None) => {
-            let remedy = format!("correct its address, or begin a run there by `treadmill learner --store {store}`");
+            let url = quoted(&store.to_string());
+            let remedy = format!("correct its address, or begin a run there by `treadmill learner --store {url}`");
             let mut findings = vec![Finding::note(NAME, format!("{store} holds no run"), remedy)];
             // A trial would create a folder, whose address may be mistyped.
             findings.extend((!url.starts_with("file:")).then(|| trial(&store, false)));

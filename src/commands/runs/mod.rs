@@ -11,7 +11,10 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_runtime::{numbers::thousands, words::shown};
+use treadmill_runtime::{
+    numbers::thousands,
+    words::{quoted, shown},
+};
 
 use self::record::Record;
 use crate::{
@@ -71,6 +74,11 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
         records.iter().zip(&differences).for_each(|(record, changes)| say(&as_json(record, changes)));
     } else {
         print_table(&records, args.keys.then_some(&differences));
+        if !args.keys && records.len() > 1 {
+            let paths: String =
+                args.paths.iter().map(|path| format!(" {}", quoted(&path.display().to_string()))).collect();
+            say(&format!("Configuration keys that differ: treadmill runs{paths} --keys"));
+        }
     }
     Ok(())
 }
@@ -175,9 +183,6 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     say("reached: mean distance of the best evaluation, in brackets that of the last training episodes;");
     say("with commands (±) the mean velocity error of the last evaluation.");
     say("return, falls: of the last training episodes.");
-    if differences.is_none() && records.len() > 1 {
-        say("Configuration keys that differ: treadmill runs --keys");
-    }
 }
 
 fn duration(seconds: f64) -> String {
