@@ -10,7 +10,7 @@ targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(basename -s .tar.gz fuzz/seeds/*.tar.gz)
 
 # Default members and `fuzz`, so that other builds share dependencies.
-build=(cargo build --release --workspace --exclude treadmill-watch --exclude treadmill-gym)
+build=(cargo build --release --workspace --exclude treadmill-gym)
 RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}" --features treadmill-fuzz/libfuzzer --bin fuzz_target
 "${build[@]}" --example seeds
 target/release/examples/seeds fuzz/corpus

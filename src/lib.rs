@@ -1,14 +1,16 @@
-//! Command line of Treadmill: the program `treadmill` calls [`main`], and the viewer (`watch/`) uses the public modules.
+//! Command line of Treadmill: the program `treadmill` calls [`main`].
 //!
 //! # Layout
 //! - `commands`: a file or folder for each subcommand.
 //! - `diagnosis`: why no learner answers, for `check` and for every other command.
 //! - [`launch`]: starting and hosting a run; exit codes, signals, log and output of every command.
-//! - [`shared`]: saved policies, and flags common to several commands and the viewer.
+//! - [`page`]: the page in the browser.
+//! - [`shared`]: saved policies, and flags common to several commands.
 
 mod commands;
 mod diagnosis;
 pub mod launch;
+pub mod page;
 pub mod shared;
 
 use std::process::ExitCode;
@@ -24,7 +26,6 @@ use crate::{
         status, train, watch,
     },
     launch::{exit_code, familiar_flags, log, output, processor, restart},
-    shared::viewer_args,
 };
 
 /// Distributed reinforcement learning for humanoid robots.
@@ -49,9 +50,9 @@ enum Command {
     Evaluator(evaluator::EvaluatorArgs),
     /// Play deterministic episodes with a trained policy or a baseline.
     Eval(eval::EvalArgs),
-    /// Show the humanoid in a browser: a trained policy, or with --live a run while it trains.
-    #[command(mut_arg("folder", |arg| arg.help(viewer_args::RUN_HELP)))]
-    Watch(viewer_args::ViewerArgs),
+    /// Show trained policies in a browser, steer them and compare them; or with --live an actor while it trains.
+    #[command(mut_arg("folder", |arg| arg.help(watch::RUN_HELP)))]
+    Watch(watch::WatchArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
     /// Print what was understood of a robot's file, and draft its card.
@@ -128,7 +129,7 @@ fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
         Command::Actor(args) => actor::run(args, tasks),
         Command::Evaluator(args) => evaluator::run(args, tasks),
         Command::Eval(args) => eval::run(args, tasks),
-        Command::Watch(_) => watch::run(),
+        Command::Watch(args) => watch::run(&args, tasks),
         Command::Export(args) => export::run(&args, tasks),
         Command::Robot(args) => robot::run(&args),
         Command::Runs(args) => runs::run(&args),

@@ -12,6 +12,7 @@
 //! - [`version`]: versions of a policy.
 //! - [`stats`]: statistics of an actor.
 //! - [`pose`]: poses of an actor's body.
+//! - [`page`]: messages of the page in the browser.
 //! - [`task`]: registration of external tasks.
 //! - [`evaluation`]: results of evaluations.
 //! - [`control`]: commands to a learner, and its status.
@@ -43,6 +44,7 @@ pub mod ident;
 pub mod json;
 pub mod limits;
 pub mod onnx;
+pub mod page;
 pub mod policy_pieces;
 pub mod pose;
 pub mod precision;

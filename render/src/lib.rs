@@ -10,6 +10,7 @@
 //! - [`solid`]: intersection of a ray with a shape.
 //! - [`picture`]: light, shadow and pixels.
 //! - [`film`]: encoding as GIF and PNG.
+//! - [`triangles`]: surfaces for viewers that draw on a GPU.
 
 pub mod camera;
 pub mod film;
@@ -17,8 +18,10 @@ pub mod picture;
 pub mod scene;
 pub mod solid;
 pub mod surface;
+pub mod triangles;
 
 pub use camera::Camera;
 pub use film::{FilmError, Gif};
 pub use picture::Picture;
 pub use scene::Scene;
+pub use triangles::TriangleMesh;

@@ -13,6 +13,7 @@ use crate::{
         prepared::{Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs},
     },
+    page::flags::TrainPageArgs,
     shared::network_args::{NetworkArgs, check_run},
 };
 
@@ -27,6 +28,8 @@ pub struct LearnerArgs {
     network: NetworkArgs,
     #[command(flatten)]
     metrics: MetricsArgs,
+    #[command(flatten)]
+    page: TrainPageArgs,
     /// Name of the run on the bus; by default the name of its folder.
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
@@ -48,8 +51,8 @@ pub fn run(args: LearnerArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let role = if args.standby { Role::Standby } else { Role::Learner };
     let options = args.network.listening_options(role, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
-    let metrics = args.metrics.listen()?;
+    let (metrics, watch) = (args.metrics.listen()?, args.page.open(args.network.tls.as_deref())?);
     let (new, any) = (&args.new, &args.any);
     let run = LearnerRun { launcher, new, any, changes: &[], name: args.run, is_standby: args.standby };
-    run.run(HostOptions { any, bus: &options, command: RunCommand::Learner, actors: None, metrics })
+    run.run(HostOptions { any, bus: &options, command: RunCommand::Learner, actors: None, metrics, watch, tasks })
 }

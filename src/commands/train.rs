@@ -14,6 +14,7 @@ use crate::{
         prepared::{Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs},
     },
+    page::flags::TrainPageArgs,
     shared::network_args::NetworkArgs,
 };
 
@@ -28,6 +29,8 @@ pub struct TrainArgs {
     network: NetworkArgs,
     #[command(flatten)]
     metrics: MetricsArgs,
+    #[command(flatten)]
+    page: TrainPageArgs,
     /// Run one actor in lock-step: the same seed gives the same weights bit for bit.
     #[arg(long)]
     deterministic: bool,
@@ -48,7 +51,7 @@ pub fn run(args: TrainArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let listen = args.listen.unwrap_or_else(|| args.network.loopback(0));
     let options = args.network.options(Role::Learner, vec![listen], Vec::new())?;
     certificates::check_own(options.credentials.as_ref())?;
-    let metrics = args.metrics.listen()?;
+    let (metrics, watch) = (args.metrics.listen()?, args.page.open(args.network.tls.as_deref())?);
     let counts = [("rollout.envs", args.envs), ("rollout.actors", args.actors)];
     let mut changes: Vec<(_, toml::Value)> =
         counts.into_iter().filter_map(|(key, count)| Some((key, count?.into()))).collect();
@@ -60,5 +63,5 @@ pub fn run(args: TrainArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     }
     let (new, any) = (&args.new, &args.any);
     let run = LearnerRun { launcher, new, any, changes: &changes, name: None, is_standby: false };
-    run.run(HostOptions { any, bus: &options, command: RunCommand::Train, actors: args.actors, metrics })
+    run.run(HostOptions { any, bus: &options, command: RunCommand::Train, actors: args.actors, metrics, watch, tasks })
 }

@@ -1,23 +1,94 @@
-//! `treadmill watch`: starts the viewer, a program of its own so that building the trainer does not build it.
+//! `treadmill watch`: the page in the browser, with trained policies or an actor that trains.
 
-use std::{env, io::ErrorKind, os::unix::process::CommandExt, path::PathBuf, process::Command};
+use std::path::PathBuf;
 
 use anyhow::Context;
+use clap::Args;
+use treadmill_humanoid::{TaskRegistry, mjcf::visual_meshes};
+use treadmill_learner::checkpoint::CheckpointChoice;
+use treadmill_runtime::{run_folder::RunFolder, shutdown::Shutdown};
 
-/// Program of the viewer.
-const PROGRAM: &str = "treadmill-watch";
+use crate::{
+    launch::{async_runtime, exit_code::Usage, output::say, signals},
+    page::{
+        flags::ServeArgs,
+        live::Live,
+        player::Player,
+        show::{POLICIES_MAX, Show},
+    },
+    shared::{learner_address::ReachArgs, model_file::ModelFileArgs},
+};
 
-/// Replaces this process by the viewer with the same arguments; returns only if the viewer cannot be started.
-pub fn run() -> anyhow::Result<()> {
-    let beside = env::current_exe().ok().map(|own| own.with_file_name(PROGRAM)).filter(|path| path.is_file());
-    let program = beside.unwrap_or_else(|| PathBuf::from(PROGRAM));
-    // Skips `treadmill watch`.
-    let why = Command::new(&program).args(env::args_os().skip(2)).exec();
-    if why.kind() == ErrorKind::NotFound {
-        anyhow::bail!(
-            "the viewer `{PROGRAM}` is neither beside this program nor on the PATH; build it with `cargo build --release -p \
-             {PROGRAM}`"
-        );
+/// Flags of `watch`.
+#[derive(Args, Clone, Debug)]
+pub struct WatchArgs {
+    #[command(flatten)]
+    reach: ReachArgs,
+    /// Further policies, which move beside the first one under the same commands.
+    #[arg(value_name = "RUN", conflicts_with_all = ["live", "connect"])]
+    more: Vec<String>,
+    /// Watch an actor of a run while it trains. RUN is its folder on this machine; on other machines pass --connect.
+    #[arg(long)]
+    live: bool,
+    /// Actor to watch; by default the first one seen.
+    #[arg(long, value_name = "NAME", requires = "live")]
+    actor: Option<String>,
+    /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
+    #[arg(long, value_name = "WHICH", conflicts_with = "live")]
+    checkpoint: Option<CheckpointChoice>,
+    /// Seed of the resets, as for `eval`.
+    #[arg(long, default_value_t = 1, conflicts_with = "live")]
+    seed: u64,
+    /// MJCF or URDF file, or card, of the robot on this machine; shows its visual meshes instead of the colliding shapes.
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    #[command(flatten)]
+    model_file: ModelFileArgs,
+    #[command(flatten)]
+    serve: ServeArgs,
+}
+
+/// Help for RUN, which `watch` takes in more forms than `status`.
+pub const RUN_HELP: &str = "\
+    Folder of a run, its name below runs/, a bundle file or an exported policy; with --live the folder of a run that \
+    trains on this machine";
+
+/// Serves the page until Ctrl-C.
+pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
+    let WatchArgs { reach, more, live, actor, checkpoint, seed, model, model_file, serve } = args;
+    let visuals =
+        model.as_deref().map(|file| visual_meshes(file, &model_file.files())).transpose()?.unwrap_or_default();
+    let (shutdown, tls) = (Shutdown::default(), reach.network.tls.as_deref());
+    if *live || reach.folder.is_none() && !reach.connect.is_empty() {
+        let served = serve.open(tls)?;
+        return Live { reach, actor: actor.as_deref(), visuals }.run(served, &shutdown);
     }
-    Err(why).with_context(|| format!("the viewer `{}` cannot be started", program.display()))
+    let Some(first) = reach.folder.clone() else {
+        let why =
+            "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
+        return Err(Usage(why.to_string()).into());
+    };
+    let runs: Vec<String> = std::iter::once(first).chain(more.iter().cloned()).collect();
+    if runs.len() > POLICIES_MAX {
+        return Err(Usage(format!("{} policies are too many to watch; name at most {POLICIES_MAX}", runs.len())).into());
+    }
+    // A policy that cannot be played is an error now, not a notice on the page.
+    for run in &runs {
+        let player = Player::load(tasks, run, *checkpoint, *seed)?;
+        if serve.steer && player.command().is_none() {
+            say(&format!("`{run}` has no commands: --steer only pushes it and changes its world"));
+        }
+    }
+    let folders = runs.iter().filter_map(|run| Some((RunFolder::open(run).ok()?, run)));
+    let logs = folders.map(|(folder, run)| (folder.metrics(), run.clone())).collect();
+    let show = Show { runs, which: *checkpoint, seed: *seed, visuals, logs, tasks: tasks.clone() };
+    let served = serve.open(tls)?;
+    async_runtime::run(async {
+        signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
+        let link = served.link.clone();
+        served.start(show, &shutdown)?;
+        say(&format!("watch at {link}"));
+        shutdown.wait().await;
+        Ok(())
+    })
 }

@@ -18,13 +18,21 @@ use crate::{
     },
 };
 
-/// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.
+/// Addresses of the pages that a process serves.
+pub struct Pages {
+    /// Metrics and health.
+    pub metrics: Option<SocketAddr>,
+    /// Page in the browser.
+    pub watch: Option<String>,
+}
+
+/// Prints the banner of a run. `actors` is the number of actor processes that this process starts.
 pub fn print_start(
     prepared: &Prepared,
     endpoints: &[String],
     credentials: Option<&Credentials>,
     actors: Option<u32>,
-    page: Option<SocketAddr>,
+    pages: &Pages,
 ) {
     let Prepared { setup, state } = prepared;
     let RunSetup { config, folder, run, .. } = setup;
@@ -61,9 +69,10 @@ pub fn print_start(
     let tls = credentials.map(|credentials| tls_flag(credentials, Role::Observer)).unwrap_or_default();
     say(&format!("  watch     treadmill status --watch {root}{tls}"));
     if !config.is_external() {
-        say(&format!(
-            "            treadmill watch --live {root}{tls}  (the humanoid in a browser; without --live a replay)"
-        ));
+        match &pages.watch {
+            Some(link) => say(&format!("  page      {link}  (the robot and its curves, in a browser)")),
+            None => say(&format!("            treadmill watch {root}  (the robot and its curves, in a browser)")),
+        }
         say(&format!("  film      treadmill eval {root} --episodes 1 --film walk.gif, also while it trains"));
     }
     if credentials
@@ -77,7 +86,7 @@ pub fn print_start(
             "  hosts     other machines need this one's name: treadmill certs {folder} --host NAME, and a new start"
         ));
     }
-    if let Some(address) = page {
+    if let Some(address) = pages.metrics {
         say(&format!("  metrics   http://{address}/metrics"));
     }
     let command = actors.map_or("learner", |_| "train");
@@ -221,6 +230,7 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
         let farthest = farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
         let (moved, best) = match summary.history.tracking_errors {
             Some([velocity, yaw]) => (format!("errors of {velocity:.2} m/s and {yaw:.2} rad/s"), String::new()),
+            None if summary.history.has_commands => ("no evaluation yet".to_string(), String::new()),
             None => (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), farthest),
         };
         say(&format!(

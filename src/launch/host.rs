@@ -3,7 +3,7 @@
 use std::{
     fs,
     net::SocketAddr,
-    sync::{Arc, OnceLock, atomic::AtomicU64},
+    sync::{Arc, Mutex, OnceLock, atomic::AtomicU64},
     time::Duration,
 };
 
@@ -12,8 +12,9 @@ use serde_json::json;
 use tokio::sync::oneshot;
 use treadmill_bus::{Bus, BusOptions, learner::TaskServer};
 use treadmill_config::Config;
+use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::{
-    checkpoint::{EpisodeMeans, TrainingState},
+    checkpoint::{CheckpointChoice, EpisodeMeans, TrainingState},
     leadership::Leadership,
     metrics::{ConsoleOptions, PrometheusMetrics, ReportOptions},
     training::{self, TrainingError, TrainingOptions, TrainingSummary},
@@ -36,7 +37,10 @@ use super::{
     supervisor::{FleetOptions, Supervisor},
 };
 
-use crate::shared::learner_address::on_this_machine;
+use crate::{
+    page::{Served, show::Show},
+    shared::learner_address::on_this_machine,
+};
 
 /// Interval of heartbeats while a learner waits for its first actor.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
@@ -57,6 +61,10 @@ pub struct HostOptions<'a> {
     pub actors: Option<u32>,
     /// Socket of the metrics page.
     pub metrics: Option<MetricsListener>,
+    /// Socket of the page in the browser.
+    pub watch: Option<Served>,
+    /// Tasks that the page can play.
+    pub tasks: &'a TaskRegistry,
 }
 
 impl HostOptions<'_> {
@@ -116,6 +124,7 @@ pub struct Host<'a> {
     /// Progress, for the health check.
     pub heartbeat: Heartbeat,
     page: Option<SocketAddr>,
+    watch: Mutex<Option<Served>>,
     /// Name of the run on the metrics page.
     run: Arc<OnceLock<String>>,
 }
@@ -132,7 +141,8 @@ impl<'a> Host<'a> {
         let (prometheus, heartbeat, run) = (PrometheusMetrics::default(), Heartbeat::default(), Arc::default());
         let serve = |listener: MetricsListener| listener.serve(Arc::clone(&run), prometheus.clone(), heartbeat.clone());
         let page = options.metrics.take().map(serve).transpose()?;
-        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, run })
+        let watch = options.watch.take().into();
+        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, watch, run })
     }
 
     /// Waits for this time, or until this process is to stop.
@@ -157,6 +167,19 @@ impl<'a> Host<'a> {
         self.run.get_or_init(|| run.to_string());
     }
 
+    /// Returns what the page of a run shows: its newest policy and its curves.
+    fn show(&self, setup: &RunSetup) -> Show {
+        let RunSetup { folder, run, .. } = setup;
+        Show {
+            runs: vec![folder.root().display().to_string()],
+            which: Some(CheckpointChoice::Latest),
+            seed: setup.config.run.seed,
+            visuals: Vec::new(),
+            logs: vec![(folder.metrics(), run.clone())],
+            tasks: self.options.tasks.clone(),
+        }
+    }
+
     /// Leads a run until it is complete or stopped, or another learner leads.
     ///
     /// # Errors
@@ -176,7 +199,13 @@ impl<'a> Host<'a> {
         self.name_run(&prepared.setup.run);
         let (credentials, actors) =
             (self.options.bus.credentials.as_ref(), self.options.actor_processes(&prepared.setup.config));
-        banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);
+        // One that leads again after it was overtaken shows the page already.
+        let watch = self.watch.lock().expect("no holder of this lock panics").take();
+        let pages = banner::Pages { metrics: self.page, watch: watch.as_ref().map(|served| served.link.clone()) };
+        if let Some(served) = watch {
+            served.start(self.show(&prepared.setup), &self.shutdown)?;
+        }
+        banner::print_start(&prepared, &self.endpoints, credentials, actors, &pages);
         banner::print_lost_endpoints(&before, &self.endpoints, actors.is_none());
         // Stays open during training, because actors that join later register their task too.
         let Prepared { mut setup, state } = prepared;

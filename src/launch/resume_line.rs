@@ -6,7 +6,7 @@ use treadmill_runtime::{run_folder::RunFolder, words::quoted};
 
 /// Flags of `train` and `learner` that belong to the process, not to the run, which has the others saved; whether they
 /// have a value.
-const OF_PROCESS: [(&str, bool); 14] = [
+const OF_PROCESS: [(&str, bool); 17] = [
     ("--listen", true),
     ("--connect", true),
     ("--tls", true),
@@ -15,6 +15,9 @@ const OF_PROCESS: [(&str, bool); 14] = [
     ("--shared-memory", false),
     ("--zenoh-config", true),
     ("--prometheus", true),
+    ("--page-listen", true),
+    ("--steer", false),
+    ("--no-page", false),
     ("--standby", false),
     ("--device", true),
     ("--actors", true),

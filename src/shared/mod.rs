@@ -1,4 +1,4 @@
-//! Modules that several commands and the viewer (`watch/`) use.
+//! Modules that several commands use.
 //!
 //! # Layout
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
@@ -8,7 +8,6 @@
 //! - [`model_file`]: flags about the file of a robot.
 //! - `existing_file`: reads a flag that names a file.
 //! - `foreign_text`: makes text from another machine safe to print, and shortens names.
-//! - [`viewer_args`]: flags of `watch`.
 
 pub(crate) mod existing_file;
 pub(crate) mod foreign_text;
@@ -17,4 +16,3 @@ pub mod model_file;
 pub mod network_args;
 pub mod saved_policy;
 pub mod saved_run;
-pub mod viewer_args;

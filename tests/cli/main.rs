@@ -16,4 +16,3 @@ mod states;
 mod support;
 mod usage;
 mod velocity;
-mod watch;

@@ -9,6 +9,7 @@ use std::{
 /// Third-party crates, and the only folders whose packages may depend on them; "(dev)" marks dev-dependencies. The tests of
 /// hostile clients need Zenoh itself.
 const DEPENDENTS: [(&str, &[&str]); 18] = [
+    ("axum", &["."]),
     ("bincode", &["learner"]),
     ("candle-core", &["common/policy", "learner/ppo"]),
     ("candle-nn", &["common/policy", "learner/ppo"]),
@@ -23,19 +24,17 @@ const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("pulp", &["actor/humanoid"]),
     ("pyo3", &["python/treadmill_gym"]),
     ("rapier3d", &["actor/humanoid"]),
-    ("ratatui", &[".", "watch"]),
-    ("rerun", &["watch"]),
+    ("ratatui", &["."]),
     ("toml", &[".", "actor/humanoid", "common/config", "common/settings", "python/treadmill_gym"]),
     ("zenoh", &[". (dev)", "common/bus"]),
 ];
 /// Packages of the workspace on which no other depends, and those on which few do.
-const OWN_DEPENDENTS: [(&str, &[&str]); 6] = [
+const OWN_DEPENDENTS: [(&str, &[&str]); 5] = [
     ("treadmill-bench", &[]),
     ("treadmill-store", &[".", "learner"]),
     ("treadmill-fuzz", &[]),
     ("treadmill-gym", &[]),
-    ("treadmill-rl", &["bench", "watch"]),
-    ("treadmill-watch", &[]),
+    ("treadmill-rl", &["bench"]),
 ];
 /// This file names what it searches for.
 const THIS_FILE: &str = "tests/documentation/architecture.rs";
@@ -113,9 +112,9 @@ fn all_dependencies(packages: &BTreeMap<String, Package>, package: &str) -> BTre
 /// Every Rust source but this one, with its path from the root.
 fn sources() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for folder in [
-        "src", "proto", "common", "actor", "learner", "render", "bench", "watch", "python", "fuzz", "tests", "examples",
-    ] {
+    for folder in
+        ["src", "proto", "common", "actor", "learner", "render", "bench", "python", "fuzz", "tests", "examples"]
+    {
         collect(&root().join(folder), &mut found);
     }
     let named = found.into_iter().map(|path| {
@@ -173,7 +172,7 @@ fn crates_are_named_only_in_their_folder() {
     assert_named_only_in(&["zenoh::"], &["common/bus/", "tests/hostile/"]);
     assert_named_only_in(&["rapier3d::", "parry3d::"], &["actor/humanoid/src/collision"]);
     assert_named_only_in(&["pulp::"], &["actor/humanoid/src/lanes"]);
-    assert_named_only_in(&["rerun::"], &["watch/"]);
+    assert_named_only_in(&["axum::"], &["src/page/"]);
     assert_named_only_in(&["object_store::"], &["common/store/"]);
 }
 
@@ -232,9 +231,9 @@ fn the_gymnasium_environment_depends_only_on_humanoid_render_and_settings() {
 }
 
 #[test]
-fn viewer_bench_fuzz_targets_and_python_package_are_not_default_members() {
+fn bench_fuzz_targets_and_python_package_are_not_default_members() {
     let mut expected = members("members");
-    expected.retain(|member| !["bench", "watch", "fuzz", "python/treadmill_gym"].contains(&&**member));
+    expected.retain(|member| !["bench", "fuzz", "python/treadmill_gym"].contains(&&**member));
     let mut found = members("default-members");
     found.retain(|member| member != ".");
     assert_eq!(found, expected);

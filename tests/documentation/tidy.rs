@@ -13,11 +13,11 @@ const ALL_WORDS_MAX: usize = 36_300;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [95_850, 62_600];
+const RUST_LINES_MAX: [usize; 2] = [96_650, 64_500];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
-const FILES_MAX: usize = 1_000;
+const FILES_MAX: usize = 1_035;
 /// Most characters of a line of a comment.
 const LINE_CHARS_MAX: usize = 125;
 /// Words and phrases in place of a concrete subject or verb.
@@ -35,7 +35,7 @@ const FORBIDDEN: [&str; 11] = [
     "what is not",
 ];
 /// Extensions of files that are searched for forbidden words.
-const READ: [&str; 7] = ["rs", "md", "py", "sh", "proto", "yml", "yaml"];
+const READ: [&str; 8] = ["rs", "md", "py", "sh", "proto", "ts", "yml", "yaml"];
 /// Most lines of a Rust file.
 const FILE_LINES_MAX: usize = 400;
 /// Rust files that may be longer, with the reason.
@@ -69,8 +69,8 @@ pub(crate) fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
     let is_foreign = |path: &Path| {
         let name = path.file_name().expect("a name").to_string_lossy();
         let is_cache = path.join("CACHEDIR.TAG").exists() || path.join("pyvenv.cfg").exists();
-        let is_output =
-            folder == root() && name == "runs" || ["target", "build", "corpus", "artifacts"].contains(&&*name);
+        let is_output = folder == root() && name == "runs"
+            || ["target", "build", "corpus", "artifacts", "node_modules", "generated"].contains(&&*name);
         is_cache || name.starts_with('.') || is_output
     };
     for entry in fs::read_dir(folder).expect("a folder").flatten() {

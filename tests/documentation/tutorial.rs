@@ -1,5 +1,5 @@
 //! The tutorial: its commands run as printed, with shorter trainings. Its parts in Python, on several hosts and in the
-//! viewer have tests of their own.
+//! browser have tests of their own.
 
 use std::path::Path;
 

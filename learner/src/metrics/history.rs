@@ -34,6 +34,8 @@ pub struct History {
     pub distance_best_m: Option<f64>,
     /// Greatest mean distance of an evaluation, in metres.
     pub evaluated_best_m: Option<f64>,
+    /// Whether the task has commands, so that errors and falls count instead of distances.
+    pub has_commands: bool,
     /// Errors of the velocity (m/s) and the yaw rate (rad/s) in the last evaluation, of a task with commands.
     pub tracking_errors: Option<[f64; 2]>,
 }

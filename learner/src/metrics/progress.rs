@@ -126,7 +126,7 @@ impl Console {
             }
         } else if self.options.show_progress && elapsed >= self.due {
             self.due = elapsed + LINE_EVERY;
-            self.write(&(line(env_steps, self.total_steps, &speed, scalars) + "\n"));
+            self.write(&(line(env_steps, self.total_steps, &speed, scalars, history) + "\n"));
         }
     }
 
@@ -218,22 +218,29 @@ fn value_of(scalars: &Scalars, tag: &str) -> Option<f64> {
 }
 
 /// Returns `155,648 of 8,000,000 steps (1.9 %), 7,412 steps/s, 17m 38s left; return 412, length 85, …`.
-fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars) -> String {
+fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars, history: &History) -> String {
     let percent = env_steps as f64 / total_steps.max(1) as f64 * 100.0;
     let known = |tag| value_of(scalars, tag);
     let parts = [
         known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
-        match known("eval/velocity_error") {
-            Some(error) => Some(format!("velocity error {} m/s", rounded(error, 2))),
-            None => known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
+        match history.has_commands {
+            true => obeyed(history),
+            false => known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
         },
+        known("rollout/fall_fraction").map(|share| format!("falls {} %", rounded(100.0 * share, 0))),
         known("rollout/used_share").map(|value| format!("used {} %", rounded(100.0 * value, 0))),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     let separator = if parts.is_empty() { "" } else { "; " };
     let (now, total) = (thousands(env_steps), thousands(total_steps));
     format!("{now} of {total} steps ({percent:.1} %), {speed}{separator}{}", parts.join(", "))
+}
+
+/// Returns the errors of the last evaluation; `None` before the first one.
+fn obeyed(history: &History) -> Option<String> {
+    let [velocity, yaw_rate] = history.tracking_errors?;
+    Some(format!("errors {} m/s and {} rad/s", rounded(velocity, 2), rounded(yaw_rate, 2)))
 }
 
 /// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends. Where the task
@@ -248,11 +255,11 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
         Some(format!("{first} {arrow} {now}{unit}{best} {}", sparkline(&values, SPARKLINE_WIDTH, is_unicode)))
     };
     let returns = curve(|point| point.return_mean, None, 0, "")?;
-    let moved = match history.tracking_errors {
-        Some([velocity, yaw]) => format!("errors {} m/s and {} rad/s", rounded(velocity, 2), rounded(yaw, 2)),
-        None => format!("distance {}", curve(|point| point.distance_m, history.farthest_m(), 1, " m")?),
+    let moved = match history.has_commands {
+        true => obeyed(history),
+        false => Some(format!("distance {}", curve(|point| point.distance_m, history.farthest_m(), 1, " m")?)),
     };
-    Some(format!("return {returns}, {moved}"))
+    Some(std::iter::once(format!("return {returns}")).chain(moved).collect::<Vec<_>>().join(", "))
 }
 
 /// Rounds to `decimals`, without negative zero.

@@ -43,6 +43,7 @@ fn a_log_file_gets_a_short_line_after_the_first_update_and_every_ten_seconds() {
         ("rollout/ep_rew_mean", 412.3),
         ("rollout/ep_len_mean", 85.2),
         ("rollout/distance_mean_m", -0.04),
+        ("rollout/fall_fraction", 0.254),
         ("rollout/used_share", 0.996),
     ];
     let scalars = scalars.map(|(tag, value)| (tag.to_string(), value));
@@ -52,8 +53,8 @@ fn a_log_file_gets_a_short_line_after_the_first_update_and_every_ten_seconds() {
     }
     assert_eq!(
         captured.text(),
-        "1,100 of 10,000 steps (11.0 %), 100 steps/s, 1m 29s left; return 412, length 85, distance 0.0 m, used 100 %\n\
-         2,100 of 10,000 steps (21.0 %), 100 steps/s, 1m 19s left; return 412, length 85, distance 0.0 m, used 100 %\n"
+        "1,100 of 10,000 steps (11.0 %), 100 steps/s, 1m 29s left; return 412, length 85, distance 0.0 m, falls 25 %, used 100 %\n\
+         2,100 of 10,000 steps (21.0 %), 100 steps/s, 1m 19s left; return 412, length 85, distance 0.0 m, falls 25 %, used 100 %\n"
     );
 }
 
@@ -62,7 +63,7 @@ fn a_line_of_large_numbers_has_at_most_160_characters() {
     let tags = ["rollout/ep_rew_mean", "rollout/ep_len_mean", "rollout/distance_mean_m", "rollout/used_share"];
     let scalars = tags.map(|tag| (tag.to_string(), -123_456.7));
     let speed = speed_and_remaining(1_234_567.0, 1 << 40);
-    let line = line(123_456_789_012, 999_999_999_999, &speed, &scalars);
+    let line = line(123_456_789_012, 999_999_999_999, &speed, &scalars, &History::default());
     assert!(line.chars().count() <= 160, "{line}");
 }
 
@@ -147,4 +148,19 @@ fn durations_are_formatted_with_two_units() {
     assert_eq!([5, 245, 11_040, 183_600].map(clock), ["5s", "4m 05s", "3h 04m", "2d 03h"]);
     assert_eq!(speed_and_remaining(0.0, 5), "0 steps/s");
     assert_eq!(speed_and_remaining(f64::MIN_POSITIVE, u64::MAX).split(", ").count(), 2);
+}
+
+#[test]
+fn errors_stand_for_distances_where_the_task_has_commands() {
+    let scalars = [("rollout/ep_rew_mean", 412.3), ("rollout/distance_mean_m", 5.0), ("rollout/fall_fraction", 0.9)];
+    let scalars = scalars.map(|(tag, value)| (tag.to_string(), value));
+    let mut history = History::default();
+    history.has_commands = true;
+    history.add(Some(412.3), Some(5.0), None);
+    let text = |history: &History| line(1, 2, "1 steps/s", &scalars, history);
+    assert_eq!(text(&history), "1 of 2 steps (50.0 %), 1 steps/s; return 412, falls 90 %");
+    assert!(!sparklines(&history, true).unwrap().contains("distance"));
+    history.note_tracking(Some(0.123), Some(0.2));
+    assert!(text(&history).contains("return 412, errors 0.12 m/s and 0.20 rad/s, falls 90 %"), "{}", text(&history));
+    assert!(sparklines(&history, true).unwrap().ends_with("errors 0.12 m/s and 0.20 rad/s"));
 }

@@ -1,6 +1,7 @@
 //! Prepares a trainer for its first batch.
 
 use treadmill_bus::Bus;
+use treadmill_config::ChosenTask;
 use treadmill_runtime::shutdown::Shutdown;
 
 use super::{Learning, Reporting, Serving, Trainer, TrainingError, TrainingOptions, storage::Storage};
@@ -33,7 +34,8 @@ impl Trainer {
         let storage = Storage::open(&state, &config, leadership, &options.folder, retry.clone())?;
         let report = MetricsReport::open(bus, &options.folder, &state, &config, &options.report)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
-        let history = History::read(&options.folder.metrics())?;
+        let mut history = History::read(&options.folder.metrics())?;
+        history.has_commands = config.env.chosen_task() == ChosenTask::Velocity;
         let (serving, stats) = Serving::open(bus, &state, &grown, options, storage, pending)?;
         let reporting = Reporting::new(report, history, stats, &state, options, retry)?;
         let (is_paused, is_stopped) = (false, false);

@@ -46,6 +46,8 @@ pub(crate) struct Record {
     pub(crate) config: BTreeMap<String, String>,
 }
 
+/// Share of falls above which a run with commands is sorted after the others.
+const FALLS_MOSTLY: f64 = 0.5;
 /// Stands for a key that a run's configuration does not have.
 const ABSENT: &str = "–";
 
@@ -144,13 +146,19 @@ impl Record {
         }
     }
 
-    /// Returns a number by which runs are sorted, the best first: those with commands by their velocity error, then the
-    /// others by the best known distance.
-    pub(crate) fn order(&self) -> (bool, f64) {
-        match self.velocity_error_mps {
-            Some(error) => (false, error),
-            None => (true, -self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)),
+    /// Whether its task has commands.
+    pub(crate) fn has_commands(&self) -> bool {
+        self.config.get("env.task").is_some_and(|task| task == "\"velocity\"")
+    }
+
+    /// Returns numbers by which runs are sorted, the best first: those with commands by their velocity error, and after
+    /// them those that mostly fall, whose errors say little; then the others by the best known distance.
+    pub(crate) fn order(&self) -> (u8, f64) {
+        if self.has_commands() {
+            let falls = self.fall_fraction.is_some_and(|share| share > FALLS_MOSTLY);
+            return (u8::from(falls), self.velocity_error_mps.unwrap_or(f64::INFINITY));
         }
+        (2, -self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY))
     }
 
     /// Returns the mean speed over the whole run.
@@ -186,9 +194,11 @@ mod tests {
             record.add(tag, value);
         }
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(160)));
-        assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (false, 0.3)));
-        record.velocity_error_mps = None;
-        assert_eq!(record.order(), (true, -9.5));
+        assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (2, -9.5)));
+        record.config.insert("env.task".into(), "\"velocity\"".into());
+        assert_eq!(record.order(), (0, 0.3));
+        record.add("rollout/fall_fraction", 0.9);
+        assert_eq!(record.order(), (1, 0.3), "it falls before it can err");
         assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));
     }
 }

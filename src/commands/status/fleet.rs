@@ -16,12 +16,15 @@ const RUNS_MAX: usize = 64;
 pub const RETURN: &str = "rollout/ep_rew_mean";
 /// Metric tag of the distance walked, in metres.
 pub const DISTANCE: &str = "rollout/distance_mean_m";
+/// Metric tags of the errors in evaluations, in m/s and rad/s.
+pub const VELOCITY_ERROR: &str = "eval/velocity_error";
+pub const YAW_RATE_ERROR: &str = "eval/yaw_rate_error";
 /// Metric tag of the velocity, in m/s.
 pub const VELOCITY: &str = "rollout/velocity_mean_mps";
 /// Metric tag of the speed, in environment steps per second.
 pub const SPEED: &str = "time/fps";
 /// Tags of all curves, to which the dashboard subscribes.
-pub const CURVES: [&str; 4] = [RETURN, DISTANCE, VELOCITY, SPEED];
+pub const CURVES: [&str; 6] = [RETURN, DISTANCE, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR, SPEED];
 
 /// State of one run.
 #[derive(Clone, Debug)]

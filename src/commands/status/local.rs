@@ -50,6 +50,8 @@ fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json
             "env_steps": record.env_steps,
             "return_mean": record.training_return,
             "best_distance_m": distance_m,
+            "velocity_error_mps": record.velocity_error_mps,
+            "fall_fraction": record.fall_fraction,
             "leader": leader.map(|leader| json!({"host": leader.host, "pid": leader.pid, "epoch": leader.epoch})),
         })
         .to_string();
@@ -64,12 +66,15 @@ fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json
         }
         None => (record.state(), "no process trains it".to_string()),
     };
+    let moved = match (record.has_commands(), record.velocity_error_mps) {
+        (true, error_mps) => format!("velocity error {} m/s", or_unknown(error_mps, 2)),
+        (false, _) => format!("best distance {} m", or_unknown(distance_m, 1)),
+    };
     format!(
-        "run `{}` is {state}: {who}\n  steps      {}\n  episodes   return {}, best distance {} m\n  \
+        "run `{}` is {state}: {who}\n  steps      {}\n  episodes   return {}, {moved}\n  \
          resume     {resumed_by}",
         record.name,
         thousands(record.env_steps),
         or_unknown(record.training_return, 0),
-        or_unknown(distance_m, 1),
     )
 }

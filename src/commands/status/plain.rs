@@ -43,7 +43,14 @@ fn line_of(run: &RunStatus) -> String {
     };
     add("return", run.return_mean, 0, "");
     add("length", run.length_mean, 0, "");
-    add("distance", run.distance_mean_m, 1, " m");
+    match run.has_commands {
+        true => {
+            add("velocity error", run.velocity_error_mps, 2, " m/s");
+            add("yaw rate error", run.yaw_rate_error_radps, 2, " rad/s");
+        }
+        false => add("distance", run.distance_mean_m, 1, " m"),
+    }
+    add("falls", run.fall_fraction.map(|share| 100.0 * share), 0, " %");
     add("used", run.used_share.map(|share| 100.0 * share), 0, " %");
     let alarms = run.alarms.iter().map(|alarm| format!("\n  ALARM {}", printable(alarm, ALARM_CHARS_MAX)));
     line + &alarms.collect::<String>()
@@ -77,14 +84,17 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         version.number,
         if version.epoch > 0 { format!(", epoch {}", version.epoch) } else { String::new() }
     )?;
-    if let (Some(return_mean), Some(distance_m), Some(velocity_mps)) =
-        (run.return_mean, run.distance_mean_m, run.velocity_mean_mps)
-    {
-        let length = run.length_mean.unwrap_or_default();
-        writeln!(
-            out,
-            "  episodes   return {return_mean:.0}, {distance_m:.1} m at {velocity_mps:.2} m/s, {length:.0} steps long"
-        )?;
+    if let Some(return_mean) = run.return_mean {
+        let moved = match (run.has_commands, run.velocity_error_mps, run.yaw_rate_error_radps) {
+            (true, Some(velocity), Some(yaw_rate)) => format!("errors of {velocity:.2} m/s and {yaw_rate:.2} rad/s"),
+            (true, ..) => "not evaluated yet".to_string(),
+            (false, ..) => {
+                let (distance_m, velocity_mps) = (run.distance_mean_m, run.velocity_mean_mps);
+                format!("{:.1} m at {:.2} m/s", distance_m.unwrap_or_default(), velocity_mps.unwrap_or_default())
+            }
+        };
+        let (length, falls) = (run.length_mean.unwrap_or_default(), 100.0 * run.fall_fraction.unwrap_or_default());
+        writeln!(out, "  episodes   return {return_mean:.0}, {moved}, {length:.0} steps long, {falls:.0} % fell")?;
     }
     writeln!(
         out,

@@ -87,7 +87,8 @@ prop_compose! {
             distance_mean_m: known.then_some(floats[6]), velocity_mean_mps: known.then_some(floats[7]),
             resident_bytes: counts[5], accepted: counts[6], duplicate: counts[7], too_old: counts[8],
             vanished: counts[9], malformed: counts[10], quarantined: counts[11], accepted_bytes: counts[12],
-            waits_for_storage: known,
+            waits_for_storage: known, has_commands: known, fall_fraction: known.then_some(floats[1]),
+            velocity_error_mps: known.then_some(floats[6]), yaw_rate_error_radps: known.then_some(floats[7]),
         }
     }
 }

@@ -8,13 +8,15 @@ use ratatui::{
     widgets::{Axis, Block, Chart, Dataset, GraphType, Paragraph},
 };
 
+use treadmill_proto::RunStatus;
+
 use super::{
     figures::{known, number, short},
     pieces::Pieces,
     theme::{CURVE, QUIET, STRONG},
 };
 use crate::commands::status::{
-    fleet::{DISTANCE, RETURN, Run, SPEED, VELOCITY},
+    fleet::{DISTANCE, RETURN, Run, SPEED, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR},
     history::Curve,
 };
 
@@ -24,21 +26,32 @@ const WIDE: u16 = 120;
 /// Draws the charts side by side.
 pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
-    let (metres, mps) = (known(status.distance_mean_m), known(status.velocity_mean_mps));
     let is_wide = area.width >= WIDE;
-    let distance = if is_wide { format!("distance {metres} m") } else { format!("{metres} m at {mps} m/s") };
+    let [first, second] = if status.has_commands {
+        let [velocity, yaw_rate] = errors(status);
+        [(VELOCITY_ERROR, format!("error {velocity} m/s")), (YAW_RATE_ERROR, format!("error {yaw_rate} rad/s"))]
+    } else {
+        let (metres, mps) = (known(status.distance_mean_m), known(status.velocity_mean_mps));
+        let distance = if is_wide { format!("distance {metres} m") } else { format!("{metres} m at {mps} m/s") };
+        [(DISTANCE, distance), (VELOCITY, format!("velocity {mps} m/s"))]
+    };
     let mut charts = vec![
         (RETURN, format!("return {}", known(status.return_mean))),
-        (DISTANCE, distance),
+        first,
         (SPEED, format!("{} steps/s", number(status.env_steps_per_s))),
     ];
     if is_wide {
-        charts.insert(2, (VELOCITY, format!("velocity {mps} m/s")));
+        charts.insert(2, second);
     }
     let areas = Layout::horizontal(vec![Constraint::Fill(1); charts.len()]).spacing(1).split(area);
     for ((tag, title), area) in charts.into_iter().zip(areas.iter()) {
         curve(frame, *area, &run.curve(tag), title);
     }
+}
+
+/// Returns the errors of the velocity and the yaw rate.
+fn errors(status: &RunStatus) -> [String; 2] {
+    [status.velocity_error_mps, status.yaw_rate_error_radps].map(known)
 }
 
 fn curve(frame: &mut Frame, area: Rect, curve: &Curve, title: String) {
@@ -79,8 +92,13 @@ pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
     pieces.push(format!("return {}", known(status.return_mean)), STRONG);
-    pieces.push(format!("{} m", known(status.distance_mean_m)), STRONG);
-    pieces.push(format!("{} m/s", known(status.velocity_mean_mps)), STRONG);
+    if status.has_commands {
+        let [velocity, yaw_rate] = errors(status);
+        pieces.push(format!("errors {velocity} m/s {yaw_rate} rad/s"), STRONG);
+    } else {
+        pieces.push(format!("{} m", known(status.distance_mean_m)), STRONG);
+        pieces.push(format!("{} m/s", known(status.velocity_mean_mps)), STRONG);
+    }
     pieces.push(format!("{} steps long", known(status.length_mean)), QUIET);
     frame.render_widget(pieces.line(), area);
 }

@@ -11,10 +11,14 @@ use std::{
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use super::{TIMEOUT, picture::Screenshot, skip};
+use crate::{
+    picture::Screenshot,
+    support::{TIMEOUT, await_that, skip},
+};
 
-/// Width and height of the page in pixels.
-pub const SIZE: (u32, u32) = (1280, 720);
+/// Width and height of a page on a desk, and on a phone, in pixels.
+pub const WIDE: [u32; 2] = [960, 600];
+pub const NARROW: [u32; 2] = [360, 740];
 
 /// Running browser.
 pub struct Browser {
@@ -22,6 +26,8 @@ pub struct Browser {
     input: ChildStdin,
     messages: Receiver<Value>,
     sent: u64,
+    /// Events that came between answers.
+    events: Vec<Value>,
     _profile: tempfile::TempDir,
 }
 
@@ -63,7 +69,7 @@ impl Browser {
             "--hide-scrollbars",
         ]);
         command.arg(format!("--user-data-dir={}", profile.path().display()));
-        command.arg(format!("--window-size={},{}", SIZE.0, SIZE.1));
+        command.arg(format!("--window-size={},{}", WIDE[0], WIDE[1]));
         // Render on the CPU, so that no GPU is needed.
         command.args(["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"]);
         // Without other hosts, everything that the page needs must come from our binary.
@@ -77,7 +83,7 @@ impl Browser {
             parsed.take_while(|message: &Value| sender.send(message.clone()).is_ok()).for_each(drop);
         });
         let input = child.stdin.take().expect("piped");
-        Some(Self { child, input, messages, sent: 0, _profile: profile })
+        Some(Self { child, input, messages, sent: 0, events: Vec::new(), _profile: profile })
     }
 
     fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
@@ -96,58 +102,83 @@ impl Browser {
                 assert!(answer["error"].is_null(), "{method}: {answer}");
                 return answer["result"].clone();
             }
+            if !answer["method"].is_null() {
+                self.events.push(answer);
+            }
         }
     }
 
-    /// Opens a page.
-    pub fn open(&mut self, url: &str) -> Page {
-        let target = self.call(None, "Target.createTarget", &json!({"url": url}));
+    /// Opens an address in a page of this size.
+    pub fn open(&mut self, url: &str, size: [u32; 2]) -> Page {
+        let target = self.call(None, "Target.createTarget", &json!({"url": "about:blank"}));
         let attached =
             self.call(None, "Target.attachToTarget", &json!({"targetId": target["targetId"], "flatten": true}));
-        let session = attached["sessionId"].as_str().expect("a session").to_string();
-        let (width, height) = SIZE;
+        let page = Page { session: attached["sessionId"].as_str().expect("a session").to_string() };
+        let [width, height] = size;
         let size = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        self.call(Some(&session), "Emulation.setDeviceMetricsOverride", &size);
-        Page { session }
+        self.of_page(&page, "Emulation.setDeviceMetricsOverride", &size);
+        for domain in ["Runtime", "Log", "Network", "Page"] {
+            self.of_page(&page, &format!("{domain}.enable"), &json!({}));
+        }
+        // Without focus it receives no keys.
+        self.of_page(&page, "Emulation.setFocusEmulationEnabled", &json!({"enabled": true}));
+        self.of_page(&page, "Page.navigate", &json!({"url": url}));
+        page
     }
 
-    /// Clicks a point of the page, as (x, y) in pixels.
-    pub fn click(&mut self, page: &Page, (x, y): (u32, u32)) {
-        for kind in ["mousePressed", "mouseReleased"] {
-            let event = json!({"type": kind, "x": x, "y": y, "button": "left", "clickCount": 1});
-            self.call(Some(&page.session), "Input.dispatchMouseEvent", &event);
-        }
+    fn of_page(&mut self, page: &Page, method: &str, params: &Value) -> Value {
+        self.call(Some(&page.session), method, params)
+    }
+
+    /// Returns the value of an expression in the page; null where it fails.
+    pub fn value(&mut self, page: &Page, expression: &str) -> Value {
+        let asked = json!({"expression": expression, "returnByValue": true});
+        self.of_page(page, "Runtime.evaluate", &asked)["result"]["value"].clone()
+    }
+
+    /// Waits until an expression of the page is true.
+    pub fn wait_for(&mut self, page: &Page, expression: &str) {
+        await_that(expression, || (self.value(page, expression) == true).then_some(()));
     }
 
     /// Presses and releases a key; `code` is the browser's name of its position on the keyboard.
     pub fn press(&mut self, page: &Page, key: &str, code: &str) {
         for kind in ["rawKeyDown", "keyUp"] {
-            let event = json!({"type": kind, "key": key, "code": code});
-            self.call(Some(&page.session), "Input.dispatchKeyEvent", &event);
+            self.of_page(page, "Input.dispatchKeyEvent", &json!({"type": kind, "key": key, "code": code}));
         }
+    }
+
+    /// Returns the addresses that pages asked for.
+    pub fn requests(&self) -> Vec<String> {
+        let sent = self.events.iter().filter(|event| {
+            ["Network.requestWillBeSent", "Network.webSocketCreated"].contains(&event["method"].as_str().unwrap_or(""))
+        });
+        sent.filter_map(|event| {
+            let params = &event["params"];
+            Some(params["request"]["url"].as_str().or(params["url"].as_str())?.to_string())
+        })
+        .collect()
+    }
+
+    /// Returns errors in the consoles of pages.
+    pub fn errors(&self) -> Vec<String> {
+        let of = |event: &Value| {
+            let params = &event["params"];
+            match event["method"].as_str()? {
+                "Runtime.exceptionThrown" => Some(params.to_string()),
+                "Runtime.consoleAPICalled" if params["type"] == "error" => Some(params["args"].to_string()),
+                "Log.entryAdded" if params["entry"]["level"] == "error" => Some(params["entry"].to_string()),
+                _ => None,
+            }
+        };
+        self.events.iter().filter_map(of).collect()
     }
 
     /// Takes a screenshot.
     pub fn screenshot(&mut self, page: &Page) -> Screenshot {
-        let answer = self.call(Some(&page.session), "Page.captureScreenshot", &json!({"format": "png"}));
+        let answer = self.of_page(page, "Page.captureScreenshot", &json!({"format": "png"}));
         let png = BASE64_STANDARD.decode(answer["data"].as_str().expect("a picture")).expect("base64");
         Screenshot::decode(&png)
-    }
-
-    /// Takes screenshots until one satisfies a condition, and returns it.
-    pub fn wait_until(&mut self, page: &Page, what: &str, mut is_right: impl FnMut(&Screenshot) -> bool) -> Screenshot {
-        let until = Instant::now() + TIMEOUT;
-        loop {
-            let picture = self.screenshot(page);
-            if is_right(&picture) {
-                return picture;
-            }
-            if Instant::now() >= until {
-                let file = std::env::temp_dir().join("treadmill-watch-failed.png");
-                picture.save(&file);
-                panic!("the page never showed {what}; the last screenshot is {}", file.display());
-            }
-        }
     }
 }
 

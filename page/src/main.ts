@@ -1,0 +1,114 @@
+// Page of Treadmill: takes messages of the server and draws the robots.
+import { equals } from "@bufbuild/protobuf";
+import { Charts } from "./charts";
+import { Connection } from "./connection";
+import type { Marking } from "./arrows";
+import { element, input, onKey, say } from "./dom";
+import { PageRobotSchema, type PageRobot, type PageScene, type ToPage } from "./generated/page_pb";
+import { Panels } from "./panels";
+import { Steering } from "./steering";
+import { Timeline } from "./timeline";
+import { Transport } from "./transport";
+import { View } from "./view";
+
+const PANELS_MS = 80;
+
+const timeline = new Timeline();
+const view = new View(element<HTMLCanvasElement>("view"));
+const transport = new Transport(timeline, view);
+const panels = new Panels(timeline);
+const charts = new Charts();
+const connection = new Connection(receive, (connected) => {
+  element("banner").hidden = connected;
+  if (connected) charts.restart();
+});
+const steering = new Steering(connection);
+
+let robots: readonly PageRobot[] = [];
+
+function receive({ kind }: ToPage): void {
+  if (kind.case === "scene") setScene(kind.value);
+  else if (kind.case === "frame") timeline.add(kind.value);
+  else if (kind.case === "curves") charts.add(kind.value);
+  else if (kind.case === "notice") say(element("notice"), kind.value);
+}
+
+function setScene(scene: PageScene): void {
+  document.title = scene.title || "Treadmill";
+  say(element("title"), document.title);
+  // Frames of the same robots stay, as after a short loss of the connection.
+  const kept = (robot: PageRobot, index: number) => equals(PageRobotSchema, robot, robots[index]!);
+  if (robots.length !== scene.robots.length || !scene.robots.every(kept)) {
+    robots = scene.robots;
+    timeline.clear();
+    view.setRobots(robots);
+    panels.setRobots(robots);
+  }
+  view.setGround(scene.ground);
+  steering.setScene(scene);
+}
+
+/** Passes the borders that panels cover on to the view. */
+function cover(): void {
+  const box = (id: string) => element(id).getBoundingClientRect();
+  const narrow = getComputedStyle(element("tabs")).display !== "none";
+  const [left, right] = narrow ? [0, 0] : [box("steer").right, innerWidth - box("numbers").left];
+  view.cover(left, right, box("title").bottom, innerHeight - box("transport").top);
+}
+
+for (const marking of ["contacts", "command", "velocity", "trail"] satisfies Marking[]) {
+  const box = input(`show-${marking}`);
+  box.addEventListener("change", () => (view.arrows.rods[marking].group.visible = box.checked));
+}
+input("follow").addEventListener("change", () => (view.following = input("follow").checked));
+const help = element<HTMLDialogElement>("help");
+element("help-open").addEventListener("click", () => help.showModal());
+onKey((key) => {
+  if (key === "?") help.showModal();
+  if (key === "f") input("follow").click();
+});
+for (const head of document.querySelectorAll(".head")) {
+  head.addEventListener("click", () => (head.ariaExpanded = String(head.ariaExpanded !== "true")));
+}
+const sizes = new ResizeObserver(cover);
+for (const id of ["view", "steer", "numbers", "curves", "transport"]) sizes.observe(element(id));
+
+let before_ms = performance.now();
+let panels_ms = 0;
+function draw(now_ms: number): void {
+  requestAnimationFrame(draw);
+  const wall_s = Math.max(0, now_ms - before_ms) / 1000;
+  before_ms = now_ms;
+  timeline.advance(Math.min(wall_s, 0.5));
+  view.draw(timeline, wall_s);
+  steering.poll(now_ms);
+  if (now_ms - panels_ms < PANELS_MS) return;
+  panels_ms = now_ms;
+  transport.update();
+  panels.update();
+  steering.update(timeline.newest(0));
+  const curves = charts.update();
+  element("curves").hidden = !curves;
+  element("tab-curves").hidden = !curves;
+}
+requestAnimationFrame(draw);
+
+/** The frame of robot 0 that is drawn now. */
+function shown() {
+  const sample = timeline.sample(0);
+  const robot = view.robots[0];
+  if (sample === undefined || robot === undefined) return undefined;
+  const { episode, command, velocity } = (sample.mix < 0.5 ? sample.before : sample.after).frame;
+  const base_m = [robot.base.x, robot.base.y - robot.offset_m, robot.base.z];
+  return { robot: 0, episode: Number(episode), shown_s: timeline.time_s, base_m, command, velocity };
+}
+
+// For tests of the page in a browser.
+const treadmill = {
+  shown,
+  frames: () => timeline.received,
+  robots: () => view.robots.length,
+  connected: () => connection.connected,
+  steers: () => steering.steers,
+};
+Object.assign(window, { treadmill });

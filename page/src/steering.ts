@@ -1,0 +1,142 @@
+// Commands, pushes and worlds that the user asks for: keys, sliders and a gamepad.
+import type { Connection } from "./connection";
+import { element, input, onKey, press, say } from "./dom";
+import type { PageFrame, PageScene } from "./generated/page_pb";
+
+const AXES = ["forward", "left", "turn"] as const;
+const UNITS = ["m/s", "m/s", "rad/s"] as const;
+/** Keys that raise and lower the command of each axis. */
+const KEYS = ["ws", "ad", "qe"] as const;
+const KEY_STEP = 0.1;
+const STICK_MIN = 0.15;
+const STICK_MS = 50;
+
+/** Shows the value of a slider beside it and calls `act` when the user moves it. */
+function slider(id: string, text: (value: number) => string, act?: (value: number) => void): (value: number) => void {
+  const range = input(id);
+  const output = range.nextElementSibling!;
+  const show = (value: number) => say(output, text(value));
+  range.addEventListener("input", () => {
+    show(range.valueAsNumber);
+    act?.(range.valueAsNumber);
+  });
+  show(range.valueAsNumber);
+  return (value) => show((range.valueAsNumber = value));
+}
+
+const times = (value: number) => `× ${value.toFixed(2)}`;
+
+/** Sliders of a world: their ids, fields of PageWorld, nominal values and texts. */
+const WORLD = [
+  ["mass", "massScale", 1, times],
+  ["friction", "frictionScale", 1, times],
+  ["motor", "motorScale", 1, times],
+  ["delay", "actionDelaySteps", 0, (value: number) => `${value} ${value === 1 ? "step" : "steps"}`],
+  ["level", "groundLevel", 0, (value: number) => `level ${value}`],
+] as const;
+
+export class Steering {
+  steers = false;
+  /** Whether robots obey commands. */
+  private commands = false;
+  /** Whether robots follow the command of this page, else their own ones. */
+  private follows = false;
+  private readonly command = [0, 0, 0];
+  private low: readonly number[] = [];
+  private high: readonly number[] = [];
+  private readonly sliders = AXES.map((id, axis) =>
+    slider(id, (value) => `${value.toFixed(2)} ${UNITS[axis]}`, (value) => this.set(axis, value)),
+  );
+  private readonly world = WORLD.map(([id, , , text]) => slider(id, text));
+  private stickUsed = false;
+  private stick_ms = 0;
+
+  constructor(private readonly connection: Connection) {
+    onKey((key) => {
+      if (!this.commands) return;
+      if (key === "x" || key === "0") this.setAll([0, 0, 0]);
+      const axis = KEYS.findIndex((keys) => keys.includes(key));
+      if (axis < 0) return;
+      const steps = Math.round(this.command[axis]! / KEY_STEP) + (KEYS[axis]![0] === key ? 1 : -1);
+      this.set(axis, steps * KEY_STEP);
+    });
+    element("stop").addEventListener("click", () => this.setAll([0, 0, 0]));
+    element("own").addEventListener("click", () => {
+      this.follows = false;
+      this.send();
+    });
+    slider("strength", (value) => `${value.toFixed(2)} m/s`);
+    for (const button of document.querySelectorAll<HTMLElement>("[data-push]")) {
+      button.addEventListener("click", () => {
+        const strength_mps = input("strength").valueAsNumber;
+        const [forwardMps, leftMps] = button.dataset["push"]!.split(" ").map((share) => Number(share) * strength_mps);
+        this.connection.send({ case: "push", value: { forwardMps, leftMps } });
+      });
+    }
+    element("apply").addEventListener("click", () => {
+      const value = Object.fromEntries(WORLD.map(([id, field]) => [field, input(id).valueAsNumber]));
+      this.connection.send({ case: "world", value });
+    });
+  }
+
+  /** Takes what the scene allows. */
+  setScene(scene: PageScene): void {
+    this.steers = scene.steers;
+    [this.low, this.high] = [scene.commandLow, scene.commandHigh];
+    this.commands = this.steers && this.low.length === 3 && this.high.length === 3;
+    element("read-only").hidden = scene.steers;
+    element("push").hidden = element("world").hidden = !scene.steers;
+    element("commands").hidden = !this.commands;
+    element("level-row").hidden = scene.groundLevels === 0;
+    input("level").max = String(Math.max(1, scene.groundLevels) - 1);
+    for (const [axis, id] of AXES.entries()) {
+      [input(id).min, input(id).max] = [String(this.low[axis] ?? 0), String(this.high[axis] ?? 0)];
+    }
+    for (const [at, [, field, nominal]] of WORLD.entries()) this.world[at]!(scene.world?.[field] ?? nominal);
+    // A server that was started anew does not know the command of before.
+    if (this.follows) this.send();
+  }
+
+  /** Shows the robots' own command while the page gives none. */
+  update(frame: PageFrame | undefined): void {
+    if (!this.commands) return;
+    say(element("followed"), this.follows ? "(yours)" : "(the robot's own)");
+    press(element("own"), !this.follows);
+    if (this.follows || frame?.command.length !== 3) return;
+    for (const [axis, show] of this.sliders.entries()) show((this.command[axis] = frame.command[axis]!));
+  }
+
+  /** Reads the sticks of the first gamepad. */
+  poll(now_ms: number): void {
+    if (!this.commands || now_ms - this.stick_ms < STICK_MS) return;
+    const pad = navigator.getGamepads?.().find((one) => one !== null && one.axes.length >= 3);
+    if (pad == null) return;
+    this.stick_ms = now_ms;
+    const sticks = [-pad.axes[1]!, -pad.axes[0]!, -pad.axes[2]!];
+    const used = sticks.some((stick) => Math.abs(stick) > STICK_MIN);
+    // A stick that is let go stops the robot once; then keys count again.
+    if (!used && !this.stickUsed) return;
+    this.stickUsed = used;
+    const range = (stick: number, axis: number) => (stick > 0 ? this.high[axis]! : -this.low[axis]!);
+    const next = sticks.map((stick, axis) => (Math.abs(stick) > STICK_MIN ? stick * range(stick, axis) : 0));
+    if (next.some((value, axis) => Math.abs(value - this.command[axis]!) > 0.01)) this.setAll(next);
+  }
+
+  private set(axis: number, value: number): void {
+    this.setAll(this.command.map((old, other) => (other === axis ? value : old)));
+  }
+
+  private setAll(values: readonly number[]): void {
+    this.follows = true;
+    for (const [axis, show] of this.sliders.entries()) {
+      const value = Math.max(this.low[axis]!, Math.min(this.high[axis]!, values[axis]!));
+      show((this.command[axis] = value));
+    }
+    this.send();
+  }
+
+  private send(): void {
+    const [forwardMps, leftMps, yawRadps] = this.command as [number, number, number];
+    this.connection.send({ case: "command", value: { follows: this.follows, forwardMps, leftMps, yawRadps } });
+  }
+}

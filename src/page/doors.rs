@@ -1,0 +1,211 @@
+//! Who may open the page: this machine's own browsers, or with TLS those that have the link.
+
+use std::{fmt::Write, io, path::Path, sync::Arc, time::Duration};
+
+use anyhow::Context;
+use axum::http::{
+    HeaderMap,
+    header::{HOST, ORIGIN},
+};
+use rand::{TryRng, rngs::SysRng};
+use rustls::{
+    ServerConfig,
+    pki_types::{CertificateDer, PrivateKeyDer, pem::PemObject},
+};
+use tokio::{
+    net::{TcpListener, TcpStream},
+    sync::{Semaphore, mpsc},
+};
+use tokio_rustls::{TlsAcceptor, server::TlsStream};
+use treadmill_bus::{Credentials, Role};
+
+use crate::launch::exit_code::Usage;
+
+/// Longest handshake, and most at a time.
+const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
+const HANDSHAKES_MAX: usize = 32;
+/// Pause after a failed accept, for instance with too many open files.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(200);
+
+/// Who may open the page.
+#[derive(Clone)]
+pub enum Door {
+    /// Browsers of this machine, or those that a tunnel leads to it.
+    Loopback,
+    /// Browsers with this token in the address, over TLS.
+    Token(Arc<str>, Arc<ServerConfig>),
+}
+
+impl Door {
+    /// Reads a certificate of a listening role in `folder`, and draws a token.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot be used.
+    pub fn with_tls(folder: &Path) -> anyhow::Result<Self> {
+        let of = |role| Credentials { folder: folder.to_path_buf(), role };
+        let mut own = [Role::Learner, Role::Router].map(of).into_iter().filter(|own| own.missing().is_none());
+        let Some([certificate, key]) = own.next().map(|own| own.files()) else {
+            let why =
+                "the page needs the certificate of a learner or a router; make it by `treadmill certs DIR --host NAME`";
+            return Err(Usage(format!("--tls {}: {why}", folder.display())).into());
+        };
+        let unusable = || format!("the certificate `{}` cannot be used", certificate.display());
+        let chain: Result<Vec<_>, _> = CertificateDer::pem_file_iter(&certificate).with_context(unusable)?.collect();
+        let key = PrivateKeyDer::from_pem_file(&key).with_context(unusable)?;
+        let provider = Arc::new(rustls::crypto::ring::default_provider());
+        let config = ServerConfig::builder_with_provider(provider).with_safe_default_protocol_versions()?;
+        let config =
+            config.with_no_client_auth().with_single_cert(chain.with_context(unusable)?, key).with_context(unusable)?;
+        let mut bytes = [0; 16];
+        SysRng.try_fill_bytes(&mut bytes).context("the system gives no random numbers")?;
+        let mut token = String::new();
+        bytes.iter().for_each(|byte| write!(token, "{byte:02x}").expect("writing to a string does not fail"));
+        Ok(Self::Token(token.into(), Arc::new(config)))
+    }
+
+    /// Returns the address of the page at a host with a port.
+    #[must_use]
+    pub fn link(&self, host: &str) -> String {
+        match self {
+            Self::Loopback => format!("http://{host}/"),
+            Self::Token(token, _) => format!("https://{host}/?token={token}"),
+        }
+    }
+
+    /// Whether a request for `path` with this query may be answered. The socket wants the origin of this server's own
+    /// page: so a page of another site cannot read or steer, even if its name resolves to this machine.
+    #[must_use]
+    pub fn admits(&self, headers: &HeaderMap, path: &str, query: &str) -> bool {
+        let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
+        let Some(host) = text(HOST) else { return false };
+        let is_socket = path == "/socket";
+        let has_origin = |scheme: &str| text(ORIGIN).is_some_and(|origin| origin == format!("{scheme}://{host}"));
+        match self {
+            Self::Loopback => {
+                // A tunnel may end at another port.
+                let end = host.rsplit_once(':').filter(|(_, port)| port.parse::<u16>().is_ok());
+                let name = end.map_or(host, |(name, _)| name);
+                ["localhost", "127.0.0.1", "[::1]"].contains(&name) && (!is_socket || has_origin("http"))
+            }
+            // The files hold no secrets.
+            Self::Token(token, _) => {
+                let has_token =
+                    query.split('&').any(|part| part.strip_prefix("token=").is_some_and(|given| is_same(given, token)));
+                !is_socket && path != "/" || has_token && (!is_socket || has_origin("https"))
+            }
+        }
+    }
+}
+
+/// Compares in a time that does not depend on where the texts differ.
+fn is_same(given: &str, wanted: &str) -> bool {
+    given.len() == wanted.len() && given.bytes().zip(wanted.bytes()).fold(0, |all, (one, other)| all | one ^ other) == 0
+}
+
+/// Connections after their handshakes, which run at the same time: a client that says nothing delays no other.
+pub struct TlsListener {
+    ready: mpsc::Receiver<(TlsStream<TcpStream>, std::net::SocketAddr)>,
+    address: std::net::SocketAddr,
+}
+
+impl TlsListener {
+    /// Begins to accept.
+    ///
+    /// # Errors
+    /// If the socket has no address.
+    pub fn new(listener: TcpListener, config: Arc<ServerConfig>) -> io::Result<Self> {
+        let address = listener.local_addr()?;
+        let (sender, ready) = mpsc::channel(HANDSHAKES_MAX);
+        let (acceptor, places) = (TlsAcceptor::from(config), Arc::new(Semaphore::new(HANDSHAKES_MAX)));
+        tokio::spawn(async move {
+            while !sender.is_closed() {
+                let Ok((stream, peer)) = listener.accept().await else {
+                    tokio::time::sleep(ACCEPT_PAUSE).await;
+                    continue;
+                };
+                let Ok(place) = Arc::clone(&places).try_acquire_owned() else { continue };
+                let (sender, handshake) = (sender.clone(), acceptor.accept(stream));
+                tokio::spawn(async move {
+                    if let Ok(Ok(stream)) = tokio::time::timeout(HANDSHAKE_TIMEOUT, handshake).await {
+                        let _ = sender.send((stream, peer)).await;
+                    }
+                    drop(place);
+                });
+            }
+        });
+        Ok(Self { ready, address })
+    }
+}
+
+impl axum::serve::Listener for TlsListener {
+    type Io = TlsStream<TcpStream>;
+    type Addr = std::net::SocketAddr;
+
+    async fn accept(&mut self) -> (Self::Io, Self::Addr) {
+        match self.ready.recv().await {
+            Some(connection) => connection,
+            // The task that accepts never ends before this listener.
+            None => std::future::pending().await,
+        }
+    }
+
+    fn local_addr(&self) -> io::Result<Self::Addr> {
+        Ok(self.address)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headers(host: &str, origin: Option<&str>) -> HeaderMap {
+        let mut headers = HeaderMap::new();
+        headers.insert(HOST, host.parse().unwrap());
+        if let Some(origin) = origin {
+            headers.insert(ORIGIN, origin.parse().unwrap());
+        }
+        headers
+    }
+
+    #[test]
+    fn only_this_machine_and_its_own_page_are_admitted_on_loopback() {
+        let is_admitted =
+            |host: &str, origin: Option<&str>, path| Door::Loopback.admits(&headers(host, origin), path, "");
+        for host in ["127.0.0.1:9090", "localhost:9090", "[::1]:9090", "localhost", "localhost:8000"] {
+            assert!(is_admitted(host, None, "/page.js"), "{host}");
+            assert!(is_admitted(host, Some(&format!("http://{host}")), "/socket"), "{host}");
+            assert!(!is_admitted(host, None, "/socket"), "{host} without an origin");
+            assert!(!is_admitted(host, Some("http://evil.example"), "/socket"), "{host}");
+        }
+        for host in ["evil.example:9090", "localhost.evil.example", "127.0.0.1.evil.example:9090", ""] {
+            assert!(!is_admitted(host, None, "/"), "{host}");
+            assert!(!is_admitted(host, Some(&format!("http://{host}")), "/socket"), "{host}");
+        }
+        assert!(!Door::Loopback.admits(&HeaderMap::new(), "/", ""));
+    }
+
+    #[test]
+    fn beyond_loopback_the_token_opens() {
+        let provider = Arc::new(rustls::crypto::ring::default_provider());
+        let config = ServerConfig::builder_with_provider(provider).with_safe_default_protocol_versions().unwrap();
+        let pair = rcgen::generate_simple_self_signed(["box".to_string()]).unwrap();
+        let key = PrivateKeyDer::try_from(pair.signing_key.serialize_der()).unwrap();
+        let config = config.with_no_client_auth().with_single_cert(vec![pair.cert.der().clone()], key).unwrap();
+        let door = Door::Token("0123abcd".into(), Arc::new(config));
+        let own = headers("box:9090", Some("https://box:9090"));
+        for (path, query, is_admitted) in [
+            ("/", "token=0123abcd", true),
+            ("/socket", "a=b&token=0123abcd", true),
+            ("/page.js", "", true),
+            ("/", "", false),
+            ("/", "token=0123abce", false),
+            ("/socket", "", false),
+            ("/socket", "token=0123abc", false),
+            ("/socket", "token=", false),
+        ] {
+            assert_eq!(door.admits(&own, path, query), is_admitted, "{path}?{query}");
+        }
+        assert!(!door.admits(&headers("box:9090", Some("http://box:9090")), "/socket", "token=0123abcd"));
+        assert_eq!(door.link("box:9090"), "https://box:9090/?token=0123abcd");
+    }
+}

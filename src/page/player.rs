@@ -1,0 +1,251 @@
+//! One policy and its environment, played for the page.
+
+use anyhow::Context;
+use treadmill_actor::{
+    agent::{Agent, PolicyAgent},
+    poses,
+};
+use treadmill_config::{Config, RandomisationConfig};
+use treadmill_humanoid::{Environment, Model, TaskRegistry};
+use treadmill_learner::checkpoint::CheckpointChoice;
+use treadmill_proto::{
+    Pose,
+    page::{PageFrame, PageWorld, append_body, append_contact},
+    pose::{BODY_NUMBERS, CONTACT_NUMBERS},
+};
+use treadmill_runtime::seeds;
+
+use crate::shared::saved_policy::{self, Origin, SavedPolicy};
+
+/// Most contacts of a frame.
+const CONTACTS_MAX: usize = 12;
+
+/// Returns the world of a policy without randomisation, on ground of medium difficulty.
+fn nominal(config: &Config) -> PageWorld {
+    let ground_level = config.ground.levels / 2;
+    PageWorld { mass_scale: 1.0, friction_scale: 1.0, motor_scale: 1.0, action_delay_steps: 0, ground_level }
+}
+
+/// Policy in an episode.
+pub struct Player {
+    run: String,
+    which: Option<CheckpointChoice>,
+    saved: SavedPolicy,
+    world: PageWorld,
+    environment: Environment,
+    agent: PolicyAgent,
+    seed: u64,
+    episode: u64,
+    step: u32,
+    start_x_m: f64,
+    observation: Vec<f32>,
+    action: Vec<f32>,
+    control: Vec<f32>,
+    has_ended: bool,
+}
+
+impl Player {
+    /// Loads the policy that RUN names, in a nominal world.
+    ///
+    /// # Errors
+    /// If there is no usable policy, or its task cannot be simulated here.
+    pub fn load(tasks: &TaskRegistry, run: &str, which: Option<CheckpointChoice>, seed: u64) -> anyhow::Result<Self> {
+        let saved = saved_policy::load(run, which)?;
+        let world = nominal(&saved.config);
+        let environment = build(tasks, run, &saved, &world)?;
+        let agent = PolicyAgent::new(&saved.policy)?;
+        let (observation, action) = (vec![0.0; environment.observation_size()], vec![0.0; environment.action_size()]);
+        let mut player = Self {
+            run: run.to_string(),
+            which,
+            saved,
+            world,
+            environment,
+            agent,
+            seed,
+            episode: 0,
+            step: 0,
+            start_x_m: 0.0,
+            observation,
+            control: action.clone(),
+            action,
+            has_ended: true,
+        };
+        player.begin_episode();
+        Ok(player)
+    }
+
+    /// Returns the robot's model, with its ground.
+    pub fn model(&self) -> &Model {
+        self.environment.physics().model()
+    }
+
+    /// Returns the duration of a control step (s).
+    pub fn control_step_s(&self) -> f64 {
+        self.environment.control_step_s()
+    }
+
+    /// Returns the world that is simulated.
+    pub fn world(&self) -> PageWorld {
+        self.world
+    }
+
+    /// Returns the configuration that the policy was trained under.
+    pub fn config(&self) -> &Config {
+        &self.saved.config
+    }
+
+    /// Returns the command that the robot follows now; `None` if its task has none.
+    pub fn command(&self) -> Option<[f64; 3]> {
+        self.environment.task().command()
+    }
+
+    /// Returns the names of [`PageFrame::rewards`].
+    pub fn reward_terms(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        self.environment.task().reward_terms(&mut |name, _| names.push(name.to_string()));
+        names
+    }
+
+    /// Returns the run that it plays.
+    pub fn run(&self) -> &str {
+        &self.run
+    }
+
+    /// Returns where its policy comes from; `None` for a file that `export` wrote.
+    pub fn origin(&self) -> Option<&Origin> {
+        self.saved.origin.as_ref()
+    }
+
+    /// Loads a newer policy of the same run, if there is one, and plays on with it. Returns whether there was one.
+    ///
+    /// # Errors
+    /// If the checkpoint cannot be read. The old policy plays on.
+    pub fn refresh(&mut self) -> anyhow::Result<bool> {
+        let Some(old) = self.origin() else { return Ok(false) };
+        let saved = saved_policy::load(&self.run, self.which)?;
+        if saved.origin.as_ref().is_none_or(|new| new.env_steps == old.env_steps) {
+            return Ok(false);
+        }
+        anyhow::ensure!(
+            saved.policy.shape == self.saved.policy.shape && saved.policy.model_xml == self.saved.policy.model_xml,
+            "run `{}` was begun anew with another robot or network; start watch again",
+            self.run
+        );
+        self.agent = PolicyAgent::new(&saved.policy)?;
+        self.saved = saved;
+        Ok(true)
+    }
+
+    /// Starts anew in another world.
+    ///
+    /// # Errors
+    /// If a number of `world` is out of range.
+    pub fn enter(&mut self, tasks: &TaskRegistry, world: &PageWorld) -> anyhow::Result<()> {
+        self.environment = build(tasks, &self.run, &self.saved, world)?;
+        self.world = *world;
+        self.begin_episode();
+        Ok(())
+    }
+
+    /// Makes the robot follow a command; `None` gives it its own commands again.
+    pub fn steer(&mut self, command: Option<[f64; 3]>) {
+        self.environment.steer(command);
+    }
+
+    /// Adds a velocity in the heading frame, forward and left (m/s), to all bodies.
+    pub fn push(&mut self, [forward_mps, left_mps]: [f64; 2]) {
+        let root = self.environment.physics().body_motion(0).pose.rotation;
+        let forward = root * nalgebra::Vector3::x();
+        let (sin, cos) = forward.y.atan2(forward.x).sin_cos();
+        let velocity_mps = [cos * forward_mps - sin * left_mps, sin * forward_mps + cos * left_mps, 0.0];
+        self.environment.physics_mut().push(velocity_mps.into());
+    }
+
+    /// Plays one step; an episode that has ended begins anew first.
+    ///
+    /// # Errors
+    /// If the policy cannot act.
+    pub fn step(&mut self) -> anyhow::Result<()> {
+        if self.has_ended {
+            self.begin_episode();
+        }
+        // The observation after the last step does not know a command that came since.
+        self.environment.observe(&mut self.observation)?;
+        self.agent.act(&self.observation, &mut self.action)?;
+        self.environment.action_from_shares(&self.action, &mut self.control);
+        let outcome = self.environment.step(&self.control, &mut self.observation);
+        self.step += 1;
+        self.has_ended = outcome.terminated || outcome.truncated;
+        Ok(())
+    }
+
+    /// Returns the present frame, for the robot with this number.
+    pub fn frame(&self, robot: u32, shown_s: f64) -> PageFrame {
+        let physics = self.environment.physics();
+        let mut rewards = Vec::new();
+        self.environment.task().reward_terms(&mut |_, term| rewards.push(term as f32));
+        let pose = Pose {
+            episode: self.episode,
+            time_s: f64::from(self.step) * self.control_step_s(),
+            distance_m: (physics.position()[0] - self.start_x_m) as f32,
+            ..poses::body_pose(&self.environment, self.command())
+        };
+        let angles_mrad = physics.joint_angles().iter().map(|angle| (angle * 1000.0).round() as i32).collect();
+        PageFrame { robot, shown_s, rewards, angles_mrad, ..frame_of(&pose) }
+    }
+
+    fn begin_episode(&mut self) {
+        self.episode += 1;
+        self.step = 0;
+        self.has_ended = false;
+        let seed = seeds::derive(self.seed, "evaluation", &[self.episode - 1]);
+        self.environment.reset(seed, &mut self.observation);
+        self.start_x_m = self.environment.physics().position()[0];
+        self.agent.episode_ended();
+    }
+}
+
+/// Returns what a pose says, with the terms of Gymnasium's reward.
+#[must_use]
+pub fn frame_of(pose: &Pose) -> PageFrame {
+    let poses = pose.bodies.as_chunks::<BODY_NUMBERS>().0;
+    let base_m = poses.first().map_or([0.0; 3], |[x, y, z, ..]| [*x, *y, *z]);
+    let (mut bodies, mut contacts) = (Vec::new(), Vec::new());
+    poses.iter().for_each(|body| append_body(&mut bodies, base_m, body));
+    let touching = pose.contacts.as_chunks::<CONTACT_NUMBERS>().0.iter().take(CONTACTS_MAX);
+    touching.for_each(|contact| append_contact(&mut contacts, base_m, contact));
+    let actual =
+        if pose.base_velocity.is_empty() { vec![pose.velocity_mps, 0.0, 0.0] } else { pose.base_velocity.clone() };
+    PageFrame {
+        robot: 0,
+        episode: pose.episode,
+        time_s: pose.time_s,
+        shown_s: pose.time_s,
+        base_m: base_m.to_vec(),
+        bodies: bodies.into(),
+        contacts: contacts.into(),
+        angles_mrad: Vec::new(),
+        torques_cnm: pose.joint_torques_nm.iter().map(|torque| (torque * 100.0).round() as i32).collect(),
+        rewards: vec![pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact],
+        command: pose.command.clone(),
+        velocity: actual,
+        distance_m: pose.distance_m,
+    }
+}
+
+fn build(tasks: &TaskRegistry, run: &str, saved: &SavedPolicy, world: &PageWorld) -> anyhow::Result<Environment> {
+    let mut config = saved.config.clone();
+    let alike = |scale: f32| [f64::from(scale); 2];
+    config.randomisation = RandomisationConfig {
+        mass_scale: alike(world.mass_scale),
+        floor_friction_scale: alike(world.friction_scale),
+        motor_scale: alike(world.motor_scale),
+        action_delay_steps: [world.action_delay_steps; 2],
+        ..RandomisationConfig::default()
+    };
+    config.ground.curriculum = false;
+    config.ground.start_level = world.ground_level.min(config.ground.levels - 1);
+    config.check().context("the world of the page")?;
+    saved_policy::environment(tasks, run, &saved.policy, &config)
+}

@@ -1,0 +1,110 @@
+//! Meshes of robots and ground, as the page draws them.
+
+use std::iter;
+
+use nalgebra::Point3;
+use treadmill_humanoid::{Model, mjcf::VisualMesh};
+use treadmill_proto::page::{PageBody, PageHinge, PageMesh, PageRobot};
+use treadmill_render::{TriangleMesh, scene::colour};
+
+/// Colour of ground that is not level.
+const GROUND: [f64; 3] = [0.55, 0.56, 0.58];
+
+/// Returns a robot by the meshes of its file, or by its colliding shapes if there are none.
+#[must_use]
+pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Vec<String>) -> PageRobot {
+    let body = |(index, body): (usize, &treadmill_humanoid::model::Body)| PageBody {
+        name: body.name.clone(),
+        meshes: if visuals.is_empty() {
+            shapes(model, index).collect()
+        } else {
+            of_file(model, index, visuals).collect()
+        },
+    };
+    let hinge = |hinge: &treadmill_humanoid::model::Hinge| PageHinge {
+        name: hinge.name.clone(),
+        low_rad: hinge.min_rad as f32,
+        high_rad: hinge.max_rad as f32,
+        effort_nm: 0.0,
+    };
+    let mut hinges: Vec<PageHinge> = model.hinges.iter().map(hinge).collect();
+    for motor in &model.motors {
+        let [low_nm, high_nm] = model.hinges[motor.hinge].torque_nm;
+        let force = motor.force.map(|force| (force * motor.gear_nm).abs()).into_iter().fold(0.0, f64::max);
+        let control =
+            motor.control.map(|control| (control * motor.gain * motor.gear_nm).abs()).into_iter().fold(0.0, f64::max);
+        // A servo's control is an angle, so that only its force limits the torque.
+        let own = if motor.bias == [0.0; 3] { control.min(force) } else { force };
+        hinges[motor.hinge].effort_nm = own.min(low_nm.abs().max(high_nm.abs())) as f32;
+    }
+    PageRobot {
+        name: name.to_string(),
+        bodies: model.bodies.iter().enumerate().map(body).collect(),
+        hinges,
+        reward_terms,
+    }
+}
+
+/// Returns the ground of a model; `None` if it is the plane z = 0.
+#[must_use]
+pub fn ground(model: &Model) -> Option<PageMesh> {
+    model.ground.height_field.as_deref().map(|field| mesh(&TriangleMesh::of_field(field), GROUND))
+}
+
+fn shapes(model: &Model, body: usize) -> impl Iterator<Item = PageMesh> {
+    model.bodies[body].shapes.iter().enumerate().map(move |(number, shape)| {
+        let link = model.link_of_shape(body, number).map_or(&model.bodies[body].name, |link| &model.links[link].name);
+        mesh(&TriangleMesh::of(&shape.geometry), colour(link))
+    })
+}
+
+/// Returns the meshes of the file on the links of a body, in the body's frame.
+fn of_file(model: &Model, body: usize, visuals: &[VisualMesh]) -> impl Iterator<Item = PageMesh> {
+    visuals.iter().filter_map(move |visual| {
+        let link = model.links.iter().find(|link| link.name == visual.link && link.body == body)?;
+        let pose = model.pose_in_file(link) * visual.pose;
+        let place = |corner: &[f32; 3]| {
+            let placed: Point3<f64> = pose * Point3::from(corner.map(f64::from));
+            placed.coords.map(|part| part as f32).into()
+        };
+        let corners_m = visual.vertices_m.iter().map(place).collect();
+        let [red, green, blue, _] = visual.colour;
+        let triangles = TriangleMesh { corners_m, triangles: visual.faces.clone(), is_faceted: false };
+        Some(mesh(&triangles, [red, green, blue]))
+    })
+}
+
+fn mesh(triangles: &TriangleMesh, colour: [f64; 3]) -> PageMesh {
+    let TriangleMesh { corners_m, triangles, is_faceted } = triangles;
+    let bytes = colour.map(|share| (share.clamp(0.0, 1.0) * 255.0).round() as u32);
+    PageMesh {
+        corners: corners_m.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>().into(),
+        triangles: triangles.as_flattened().iter().flat_map(|index| index.to_le_bytes()).collect::<Vec<u8>>().into(),
+        colour: iter::zip(bytes, [16, 8, 0]).map(|(byte, shift)| byte << shift).sum(),
+        is_faceted: *is_faceted,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use treadmill_humanoid::HUMANOID_XML;
+
+    use super::*;
+
+    #[test]
+    fn a_robot_has_its_shapes_and_hinges() {
+        let model = Model::from_mjcf(HUMANOID_XML).unwrap();
+        let found = robot("walk", &model, &[], Vec::new());
+        assert_eq!((found.bodies.len(), found.hinges.len()), (model.bodies.len(), 17));
+        for (found, body) in iter::zip(&found.bodies, &model.bodies) {
+            assert_eq!(found.meshes.len(), body.shapes.len(), "{}", body.name);
+        }
+        let hip = found.hinges.iter().find(|hinge| hinge.name == "right_hip_y").unwrap();
+        // Gymnasium's humanoid: gear 300, controls of ±0.4.
+        assert!((hip.effort_nm - 120.0).abs() < 1e-3, "{hip:?}");
+        assert!(ground(&model).is_none());
+        let thigh = &found.bodies.iter().find(|body| body.name == "left_thigh").unwrap().meshes[0];
+        assert_eq!(thigh.colour, 0xed_8c_3d);
+        assert!(thigh.corners.len().is_multiple_of(12) && thigh.triangles.len().is_multiple_of(12));
+    }
+}
