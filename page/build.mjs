@@ -1,11 +1,10 @@
 // Bundles the page into dist/: the same bytes each time, so that what is checked in can be compared.
 import { build } from "esbuild";
-import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const read = (path) => readFileSync(path, "utf8");
 
-rmSync("dist", { recursive: true, force: true });
-mkdirSync("dist");
+mkdirSync("dist", { recursive: true });
 
 const result = await build({
   entryPoints: ["src/main.ts"],

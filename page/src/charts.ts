@@ -10,9 +10,19 @@ const OF_COMMANDED = ["rollout/ep_rew_mean", "eval/velocity_error", "eval/yaw_ra
 const MARK_OF_COMMANDED = "rewards/track_linear_velocity";
 const COLOURS = ["#2f7bf6", "#f2762e", "#2bb24c", "#b455e0", "#e5383b", "#18a5b5", "#e5a900", "#e0529c"];
 const HEIGHT = 110;
+const POINTS_MAX = 3000;
 
 type Points = { steps: number[]; wall_s: number[]; values: (number | null)[] };
 type Chart = { plot: uPlot; box: HTMLElement; value: HTMLElement };
+
+/** Drops every second of the older points where there are too many. */
+function thin(points: Points): void {
+  if (points.values.length < POINTS_MAX) return;
+  const isKept = (_: unknown, index: number) => index % 2 === 0 || index > POINTS_MAX - 200;
+  points.steps = points.steps.filter(isKept);
+  points.wall_s = points.wall_s.filter(isKept);
+  points.values = points.values.filter(isKept);
+}
 
 /** Number with few digits: 1.2M. */
 function short(value: number): string {
@@ -75,6 +85,7 @@ export class Charts {
         points.wall_s.push(wallS[at]!);
         points.values.push(Number.isFinite(value) ? value : null);
       }
+      thin(points);
       if (points.values.length > 0) this.curves.set(tag, runs.set(run, points));
     }
     this.changed = true;

@@ -114,17 +114,18 @@ export class Panels {
 
   private joint(now: PageFrame): void {
     const at = Number(choice("hinge").value);
-    const angle_rad = (frame: PageFrame) => (frame.anglesMrad[at] ?? 0) / 1000;
+    // Actors that train send no angles.
+    const angle_rad = (frame: PageFrame) => (frame.anglesMrad[at] ?? NaN) / 1000;
     const torque_nm = (frame: PageFrame) => (frame.torquesCnm[at] ?? 0) / 100;
     const [times, angles, torques]: [number[], number[], number[]] = [[], [], []];
     this.timeline.visit(this.robot, PLOT_S, ({ shown_s, frame }) => {
       times.push(shown_s - this.timeline.time_s);
-      angles.push(angle_rad(frame));
+      if (frame.anglesMrad.length > 0) angles.push(angle_rad(frame));
       torques.push(torque_nm(frame));
     });
-    this.plots[0]?.(times, angles);
+    this.plots[0]?.(angles.length > 0 ? times : [], angles);
     this.plots[1]?.(times, torques);
-    say(element("angle"), angle_rad(now).toFixed(3));
+    say(element("angle"), now.anglesMrad.length > 0 ? angle_rad(now).toFixed(3) : "–");
     say(element("torque"), torque_nm(now).toFixed(2));
   }
 }

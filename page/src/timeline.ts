@@ -49,6 +49,7 @@ export class Timeline {
   clear(): void {
     this.tracks = [];
     this.time_s = this.newest_s = 0;
+    this.pace = 1;
     this.goLive();
   }
 
@@ -68,7 +69,7 @@ export class Timeline {
   }
 
   get oldest_s(): number {
-    return Math.min(this.newest_s, ...this.tracks.map((track) => track?.[0]?.shown_s ?? Infinity));
+    return Math.min(this.newest_s, ...Array.from(this.tracks, (track) => track?.[0]?.shown_s ?? Infinity));
   }
 
   /** Moves the clock by `wall_s` of wall time. */

@@ -14,7 +14,7 @@ use crate::{
         flags::ServeArgs,
         live::Live,
         player::Player,
-        show::{POLICIES_MAX, Show},
+        show::{POLICIES_MAX, Show, short},
     },
     shared::{learner_address::ReachArgs, model_file::ModelFileArgs},
 };
@@ -28,7 +28,7 @@ pub struct WatchArgs {
     #[arg(value_name = "RUN", conflicts_with_all = ["live", "connect"])]
     more: Vec<String>,
     /// Watch an actor of a run while it trains. RUN is its folder on this machine; on other machines pass --connect.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "steer")]
     live: bool,
     /// Actor to watch; by default the first one seen.
     #[arg(long, value_name = "NAME", requires = "live")]
@@ -79,14 +79,18 @@ pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             say(&format!("`{run}` has no commands: --steer only pushes it and changes its world"));
         }
     }
-    let folders = runs.iter().filter_map(|run| Some((RunFolder::open(run).ok()?, run)));
+    let mut named = runs.clone();
+    named.sort();
+    named.dedup();
+    let folders = named.iter().filter_map(|run| Some((RunFolder::open(run).ok()?, run)));
     let logs = folders.map(|(folder, run)| (folder.metrics(), run.clone())).collect();
-    let show = Show { runs, which: *checkpoint, seed: *seed, visuals, logs, tasks: tasks.clone() };
+    let title = runs.iter().map(|run| short(run)).collect::<Vec<_>>().join(", ");
+    let show = Show { title, runs, which: *checkpoint, seed: *seed, visuals, logs, tasks: tasks.clone() };
     let served = serve.open(tls)?;
     async_runtime::run(async {
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let link = served.link.clone();
-        served.start(show, &shutdown)?;
+        served.serve(&shutdown)?.play(show, &shutdown)?;
         say(&format!("watch at {link}"));
         shutdown.wait().await;
         Ok(())

@@ -68,11 +68,12 @@ pub fn print_start(
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(|credentials| tls_flag(credentials, Role::Observer)).unwrap_or_default();
     say(&format!("  watch     treadmill status --watch {root}{tls}"));
+    match &pages.watch {
+        Some(link) => say(&format!("  page      {link}  (the robot and its curves, in a browser)")),
+        None if config.is_external() => {}
+        None => say(&format!("            treadmill watch {root}  (the robot and its curves, in a browser)")),
+    }
     if !config.is_external() {
-        match &pages.watch {
-            Some(link) => say(&format!("  page      {link}  (the robot and its curves, in a browser)")),
-            None => say(&format!("            treadmill watch {root}  (the robot and its curves, in a browser)")),
-        }
         say(&format!("  film      treadmill eval {root} --episodes 1 --film walk.gif, also while it trains"));
     }
     if credentials

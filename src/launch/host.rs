@@ -38,7 +38,7 @@ use super::{
 };
 
 use crate::{
-    page::{Served, show::Show},
+    page::{OpenPage, Served, show::Show},
     shared::learner_address::on_this_machine,
 };
 
@@ -124,7 +124,10 @@ pub struct Host<'a> {
     /// Progress, for the health check.
     pub heartbeat: Heartbeat,
     page: Option<SocketAddr>,
-    watch: Mutex<Option<Served>>,
+    /// Link of the page in the browser, and its socket.
+    watch: Option<(String, SocketAddr)>,
+    /// That page until it shows a run.
+    serving: Mutex<Option<OpenPage>>,
     /// Name of the run on the metrics page.
     run: Arc<OnceLock<String>>,
 }
@@ -141,8 +144,13 @@ impl<'a> Host<'a> {
         let (prometheus, heartbeat, run) = (PrometheusMetrics::default(), Heartbeat::default(), Arc::default());
         let serve = |listener: MetricsListener| listener.serve(Arc::clone(&run), prometheus.clone(), heartbeat.clone());
         let page = options.metrics.take().map(serve).transpose()?;
-        let watch = options.watch.take().into();
-        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, watch, run })
+        let watch = options.watch.as_ref().map(|served| (served.link.clone(), served.address));
+        let serving = options.watch.take().map(|served| served.serve(&shutdown)).transpose()?;
+        if let Some(OpenPage { hub, .. }) = &serving {
+            hub.notice("no run yet: this process waits to lead one");
+        }
+        let serving = serving.into();
+        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, watch, serving, run })
     }
 
     /// Waits for this time, or until this process is to stop.
@@ -159,7 +167,9 @@ impl<'a> Host<'a> {
     /// panic, and then keeps its memory. Returns only if the system refuses.
     pub fn restart(&self) -> std::io::Error {
         let page = self.page.iter().map(SocketAddr::to_string).collect();
-        restart(&[("--listen", self.endpoints.clone()), ("--prometheus", page)], RESTART_PAUSE)
+        let watch = self.watch.iter().map(|(_, address)| address.to_string()).collect();
+        let places = [("--listen", self.endpoints.clone()), ("--prometheus", page), ("--page-listen", watch)];
+        restart(&places, RESTART_PAUSE)
     }
 
     /// Names the run on the metrics page, at the first call.
@@ -171,7 +181,9 @@ impl<'a> Host<'a> {
     fn show(&self, setup: &RunSetup) -> Show {
         let RunSetup { folder, run, .. } = setup;
         Show {
-            runs: vec![folder.root().display().to_string()],
+            title: run.clone(),
+            // No policy of an external task can be played here.
+            runs: if setup.config.is_external() { Vec::new() } else { vec![folder.root().display().to_string()] },
             which: Some(CheckpointChoice::Latest),
             seed: setup.config.run.seed,
             visuals: Vec::new(),
@@ -200,11 +212,12 @@ impl<'a> Host<'a> {
         let (credentials, actors) =
             (self.options.bus.credentials.as_ref(), self.options.actor_processes(&prepared.setup.config));
         // One that leads again after it was overtaken shows the page already.
-        let watch = self.watch.lock().expect("no holder of this lock panics").take();
-        let pages = banner::Pages { metrics: self.page, watch: watch.as_ref().map(|served| served.link.clone()) };
-        if let Some(served) = watch {
-            served.start(self.show(&prepared.setup), &self.shutdown)?;
+        let serving = self.serving.lock().expect("no holder of this lock panics").take();
+        if let Some(serving) = serving {
+            serving.hub.notice("");
+            serving.play(self.show(&prepared.setup), &self.shutdown)?;
         }
+        let pages = banner::Pages { metrics: self.page, watch: self.watch.as_ref().map(|(link, _)| link.clone()) };
         banner::print_start(&prepared, &self.endpoints, credentials, actors, &pages);
         banner::print_lost_endpoints(&before, &self.endpoints, actors.is_none());
         // Stays open during training, because actors that join later register their task too.

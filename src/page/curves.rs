@@ -4,6 +4,7 @@ use std::{
     collections::BTreeMap,
     fs::File,
     io::{BufRead, BufReader, Seek, SeekFrom},
+    os::unix::fs::MetadataExt,
     path::PathBuf,
 };
 
@@ -46,6 +47,19 @@ impl CurveStore {
         }
     }
 
+    /// Removes the curves of a run. Returns whether there were any.
+    pub fn remove(&mut self, run: &str) -> bool {
+        let before = self.curves.len();
+        self.curves.retain(|(of, _), _| of != run);
+        self.curves.len() < before
+    }
+
+    /// Returns the curves of a run.
+    pub fn of_run(&self, run: &str) -> PageCurves {
+        let own = self.curves.iter().filter(|((of, _), _)| of == run);
+        PageCurves { curves: own.map(|(_, thinned)| thinned.curve.clone()).collect() }
+    }
+
     /// Returns all curves.
     pub fn whole(&self) -> PageCurves {
         PageCurves { curves: self.curves.values().map(|thinned| thinned.curve.clone()).collect() }
@@ -79,6 +93,8 @@ impl Thinned {
 pub struct RunLog {
     file: PathBuf,
     run: String,
+    /// Number of the file: a resume that cuts the log replaces it.
+    inode: u64,
     read_bytes: u64,
     begun_unix_s: Option<f64>,
 }
@@ -87,20 +103,27 @@ impl RunLog {
     /// Creates the log of a run, which is read from its beginning.
     #[must_use]
     pub fn new(file: PathBuf, run: String) -> Self {
-        Self { file, run, read_bytes: 0, begun_unix_s: None }
+        Self { file, run, inode: 0, read_bytes: 0, begun_unix_s: None }
     }
 
-    /// Returns the points that were written since the last call. A missing file has none, and so has a half line. A file
-    /// that became shorter was cut by a resume; its curves go on from there.
-    pub fn new_points(&mut self) -> PageCurves {
+    /// Returns its run.
+    pub fn run(&self) -> &str {
+        &self.run
+    }
+
+    /// Returns the points that were written since the last call, and whether they begin the curves anew: a resume cuts the
+    /// log. A missing file and a half line have none.
+    pub fn new_points(&mut self) -> (PageCurves, bool) {
         let mut curves: BTreeMap<String, PageCurve> = BTreeMap::new();
-        let Ok(mut file) = File::open(&self.file) else { return PageCurves::default() };
-        let length = file.metadata().map_or(0, |found| found.len());
-        if length < self.read_bytes {
-            self.read_bytes = length;
+        let opened = File::open(&self.file).and_then(|file| Ok((file.metadata()?, file)));
+        let Ok((found, mut file)) = opened else { return (PageCurves::default(), false) };
+        let length = found.len();
+        if found.ino() != self.inode || length < self.read_bytes {
+            (self.inode, self.read_bytes, self.begun_unix_s) = (found.ino(), 0, None);
         }
+        let is_anew = self.read_bytes == 0;
         if length == self.read_bytes || file.seek(SeekFrom::Start(self.read_bytes)).is_err() {
-            return PageCurves::default();
+            return (PageCurves::default(), false);
         }
         let (mut reader, mut line) = (BufReader::new(file), Vec::new());
         while reader.read_until(b'\n', &mut line).is_ok_and(|bytes| bytes > 0) && line.ends_with(b"\n") {
@@ -115,7 +138,7 @@ impl RunLog {
             }
             line.clear();
         }
-        PageCurves { curves: curves.into_values().collect() }
+        (PageCurves { curves: curves.into_values().collect() }, is_anew)
     }
 }
 
@@ -156,23 +179,38 @@ mod tests {
     }
 
     #[test]
-    fn a_log_is_read_as_it_grows() {
+    fn a_log_is_read_as_it_grows_and_anew_after_it_was_cut() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
         let mut log = RunLog::new(path.clone(), "walk".into());
-        assert_eq!(log.new_points(), PageCurves::default());
+        let mut new_steps = |is_anew: bool| -> Vec<f64> {
+            let (points, found) = log.new_points();
+            assert_eq!(found, is_anew && !points.curves.is_empty(), "{points:?}");
+            points.curves.first().map(|curve| curve.steps.clone()).unwrap_or_default()
+        };
+        assert!(new_steps(false).is_empty());
         let mut file = OpenOptions::new().create(true).append(true).open(&path).unwrap();
         let line =
             |step: u32| format!(r#"{{"run":"walk","tag":"a","step":{step},"value":1.5,"time_unix_s":{}}}"#, 100 + step);
         write!(file, "{}\nnonsense\n{}\n{}", line(1), line(2), &line(3)[..20]).unwrap();
-        let first = log.new_points();
-        assert_eq!((&first.curves[0].steps[..], &first.curves[0].wall_s[..]), (&[1.0, 2.0][..], &[0.0, 1.0][..]));
-        assert_eq!(log.new_points(), PageCurves::default());
+        assert_eq!(new_steps(true), [1.0, 2.0]);
+        assert!(new_steps(false).is_empty());
         writeln!(file, "{}", &line(3)[20..]).unwrap();
-        assert_eq!(log.new_points().curves[0].steps, [3.0]);
-        file.set_len(0).unwrap();
-        assert_eq!(log.new_points(), PageCurves::default());
-        writeln!(file, "{}", line(4)).unwrap();
-        assert_eq!(log.new_points().curves[0].steps, [4.0]);
+        assert_eq!(new_steps(false), [3.0]);
+        // A resume replaces the file by one without the last steps, and goes on; it may be longer by then.
+        let lines: Vec<String> = [1, 2, 30, 31, 32].map(line).to_vec();
+        std::fs::write(path.with_extension("new"), lines.join("\n") + "\n").unwrap();
+        std::fs::rename(path.with_extension("new"), &path).unwrap();
+        assert_eq!(new_steps(true), [1.0, 2.0, 30.0, 31.0, 32.0]);
+    }
+
+    #[test]
+    fn curves_of_a_run_are_replaced() {
+        let mut store = CurveStore::default();
+        assert!(!store.remove("walk"));
+        store.add(&PageCurves { curves: vec![curve("a", 0..3), PageCurve { run: "g1".into(), ..curve("a", 0..5) }] });
+        assert_eq!(store.of_run("walk").curves.len(), 1);
+        assert!(store.remove("walk"));
+        assert_eq!(store.whole().curves[0].run, "g1");
     }
 }

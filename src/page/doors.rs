@@ -1,8 +1,17 @@
 //! Who may open the page: this machine's own browsers, or with TLS those that have the link.
 
-use std::{fmt::Write, io, path::Path, sync::Arc, time::Duration};
+use std::{
+    fmt::Write,
+    io,
+    net::{IpAddr, SocketAddr},
+    path::Path,
+    pin::Pin,
+    sync::Arc,
+    task::{Context, Poll},
+    time::Duration,
+};
 
-use anyhow::Context;
+use anyhow::Context as _;
 use axum::http::{
     HeaderMap,
     header::{HOST, ORIGIN},
@@ -13,8 +22,9 @@ use rustls::{
     pki_types::{CertificateDer, PrivateKeyDer, pem::PemObject},
 };
 use tokio::{
+    io::{AsyncRead, AsyncWrite, ReadBuf},
     net::{TcpListener, TcpStream},
-    sync::{Semaphore, mpsc},
+    sync::{OwnedSemaphorePermit, Semaphore, mpsc},
 };
 use tokio_rustls::{TlsAcceptor, server::TlsStream};
 use treadmill_bus::{Credentials, Role};
@@ -24,6 +34,8 @@ use crate::launch::exit_code::Usage;
 /// Longest handshake, and most at a time.
 const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
 const HANDSHAKES_MAX: usize = 32;
+/// Most connections at a time: a browser opens several for one page.
+const CONNECTIONS_MAX: usize = 64;
 /// Pause after a failed accept, for instance with too many open files.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(200);
 
@@ -85,7 +97,9 @@ impl Door {
                 // A tunnel may end at another port.
                 let end = host.rsplit_once(':').filter(|(_, port)| port.parse::<u16>().is_ok());
                 let name = end.map_or(host, |(name, _)| name);
-                ["localhost", "127.0.0.1", "[::1]"].contains(&name) && (!is_socket || has_origin("http"))
+                let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
+                (name == "localhost" || address.is_ok_and(|address| address.is_loopback()))
+                    && (!is_socket || has_origin("http"))
             }
             // The files hold no secrets.
             Self::Token(token, _) => {
@@ -104,8 +118,8 @@ fn is_same(given: &str, wanted: &str) -> bool {
 
 /// Connections after their handshakes, which run at the same time: a client that says nothing delays no other.
 pub struct TlsListener {
-    ready: mpsc::Receiver<(TlsStream<TcpStream>, std::net::SocketAddr)>,
-    address: std::net::SocketAddr,
+    ready: mpsc::Receiver<(TlsStream<TcpStream>, SocketAddr)>,
+    address: SocketAddr,
 }
 
 impl TlsListener {
@@ -139,7 +153,7 @@ impl TlsListener {
 
 impl axum::serve::Listener for TlsListener {
     type Io = TlsStream<TcpStream>;
-    type Addr = std::net::SocketAddr;
+    type Addr = SocketAddr;
 
     async fn accept(&mut self) -> (Self::Io, Self::Addr) {
         match self.ready.recv().await {
@@ -151,6 +165,61 @@ impl axum::serve::Listener for TlsListener {
 
     fn local_addr(&self) -> io::Result<Self::Addr> {
         Ok(self.address)
+    }
+}
+
+/// Connections of which at most [`CONNECTIONS_MAX`] are open: a further one waits until another ends. So clients that
+/// hold connections open take no files from the rest of the process.
+pub struct BoundedListener<L> {
+    inner: L,
+    places: Arc<Semaphore>,
+}
+
+impl<L> BoundedListener<L> {
+    /// Bounds a listener.
+    pub fn new(inner: L) -> Self {
+        Self { inner, places: Arc::new(Semaphore::new(CONNECTIONS_MAX)) }
+    }
+}
+
+impl<L: axum::serve::Listener> axum::serve::Listener for BoundedListener<L> {
+    type Io = Placed<L::Io>;
+    type Addr = L::Addr;
+
+    async fn accept(&mut self) -> (Self::Io, Self::Addr) {
+        let place = Arc::clone(&self.places).acquire_owned().await.expect("the semaphore is never closed");
+        let (io, peer) = self.inner.accept().await;
+        (Placed { io, _place: place }, peer)
+    }
+
+    fn local_addr(&self) -> io::Result<Self::Addr> {
+        self.inner.local_addr()
+    }
+}
+
+/// Connection with its place.
+pub struct Placed<Io> {
+    io: Io,
+    _place: OwnedSemaphorePermit,
+}
+
+impl<Io: AsyncRead + Unpin> AsyncRead for Placed<Io> {
+    fn poll_read(mut self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &mut ReadBuf<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.io).poll_read(cx, buf)
+    }
+}
+
+impl<Io: AsyncWrite + Unpin> AsyncWrite for Placed<Io> {
+    fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &[u8]) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.io).poll_write(cx, buf)
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.io).poll_flush(cx)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.io).poll_shutdown(cx)
     }
 }
 
@@ -171,13 +240,14 @@ mod tests {
     fn only_this_machine_and_its_own_page_are_admitted_on_loopback() {
         let is_admitted =
             |host: &str, origin: Option<&str>, path| Door::Loopback.admits(&headers(host, origin), path, "");
-        for host in ["127.0.0.1:9090", "localhost:9090", "[::1]:9090", "localhost", "localhost:8000"] {
+        for host in ["127.0.0.1:7448", "localhost:7448", "[::1]:7448", "127.0.0.2:7448", "localhost", "localhost:8000"]
+        {
             assert!(is_admitted(host, None, "/page.js"), "{host}");
             assert!(is_admitted(host, Some(&format!("http://{host}")), "/socket"), "{host}");
             assert!(!is_admitted(host, None, "/socket"), "{host} without an origin");
             assert!(!is_admitted(host, Some("http://evil.example"), "/socket"), "{host}");
         }
-        for host in ["evil.example:9090", "localhost.evil.example", "127.0.0.1.evil.example:9090", ""] {
+        for host in ["evil.example:7448", "localhost.evil.example", "127.0.0.1.evil.example:7448", ""] {
             assert!(!is_admitted(host, None, "/"), "{host}");
             assert!(!is_admitted(host, Some(&format!("http://{host}")), "/socket"), "{host}");
         }
@@ -192,7 +262,7 @@ mod tests {
         let key = PrivateKeyDer::try_from(pair.signing_key.serialize_der()).unwrap();
         let config = config.with_no_client_auth().with_single_cert(vec![pair.cert.der().clone()], key).unwrap();
         let door = Door::Token("0123abcd".into(), Arc::new(config));
-        let own = headers("box:9090", Some("https://box:9090"));
+        let own = headers("box:7448", Some("https://box:7448"));
         for (path, query, is_admitted) in [
             ("/", "token=0123abcd", true),
             ("/socket", "a=b&token=0123abcd", true),
@@ -205,7 +275,7 @@ mod tests {
         ] {
             assert_eq!(door.admits(&own, path, query), is_admitted, "{path}?{query}");
         }
-        assert!(!door.admits(&headers("box:9090", Some("http://box:9090")), "/socket", "token=0123abcd"));
-        assert_eq!(door.link("box:9090"), "https://box:9090/?token=0123abcd");
+        assert!(!door.admits(&headers("box:7448", Some("http://box:7448")), "/socket", "token=0123abcd"));
+        assert_eq!(door.link("box:7448"), "https://box:7448/?token=0123abcd");
     }
 }

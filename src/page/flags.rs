@@ -13,12 +13,12 @@ use super::{Served, doors::Door, hub::Hub};
 use crate::launch::exit_code::Usage;
 
 /// Port unless another program has it.
-const PORT: u16 = 9090;
+const PORT: u16 = 7448;
 
 /// Flags about the page.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ServeArgs {
-    /// Address of the page in the browser; by default 127.0.0.1:9090, or a free port if that is in use. Beyond loopback it
+    /// Address of the page in the browser; by default 127.0.0.1:7448, or a free port if that is in use. Beyond loopback it
     /// needs --tls with a certificate of a learner or router, and the printed link has a token.
     #[arg(long, value_name = "ADDRESS")]
     page_listen: Option<SocketAddr>,
@@ -75,7 +75,7 @@ impl ServeArgs {
         };
         listener.set_nonblocking(true)?;
         let (hub, requests) = Hub::new(self.steer);
-        Ok(Served { listener, link: door.link(&host), door, hub, requests })
+        Ok(Served { listener, link: door.link(&host), address, door, hub, requests })
     }
 
     fn listen(&self) -> anyhow::Result<TcpListener> {

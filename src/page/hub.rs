@@ -37,6 +37,9 @@ struct Shared {
     pages: Mutex<usize>,
     pages_changed: Condvar,
     curves: Mutex<CurveStore>,
+    notice: Mutex<Bytes>,
+    /// Counts how often curves were replaced.
+    generation: watch::Sender<u64>,
     steers: bool,
 }
 
@@ -53,6 +56,10 @@ pub struct PageView {
     pub news: broadcast::Receiver<Bytes>,
     /// All curves so far.
     pub curves: Bytes,
+    /// Newest notice; empty without any.
+    pub notice: Bytes,
+    /// Changes when curves are replaced.
+    pub generation: watch::Receiver<u64>,
 }
 
 impl Hub {
@@ -67,6 +74,8 @@ impl Hub {
             pages: Mutex::new(0),
             pages_changed: Condvar::new(),
             curves: Mutex::default(),
+            notice: Mutex::default(),
+            generation: watch::Sender::new(0),
             steers,
         };
         (Self { shared: Arc::new(shared), asked }, requests)
@@ -99,6 +108,8 @@ impl Hub {
             frames: self.shared.frames.subscribe(),
             news: self.shared.news.subscribe(),
             curves: ToPageKind::Curves(curves.whole()).to_bytes().into(),
+            notice: self.notices().clone(),
+            generation: self.shared.generation.subscribe(),
         }
     }
 
@@ -135,21 +146,34 @@ impl Hub {
 
     /// Shows a line of text.
     pub fn notice(&self, text: impl Into<String>) {
-        let _ = self.shared.news.send(ToPageKind::Notice(text.into()).to_bytes().into());
+        let message = Bytes::from(ToPageKind::Notice(text.into()).to_bytes());
+        self.notices().clone_from(&message);
+        let _ = self.shared.news.send(message);
     }
 
-    /// Adds points to curves.
-    pub fn add_points(&self, points: PageCurves) {
+    /// Adds points to the curves of a run, or replaces its curves where the points begin `anew`.
+    pub fn add_points(&self, run: &str, points: PageCurves, anew: bool) {
         if points.curves.is_empty() {
             return;
         }
         let mut curves = self.curves();
+        if anew && curves.remove(run) {
+            curves.add(&points);
+            self.shared.generation.send_modify(|generation| *generation += 1);
+            return;
+        }
         curves.add(&points);
-        let _ = self.shared.news.send(ToPageKind::Curves(points).to_bytes().into());
+        // The log of a long run is thinned.
+        let news = if anew { curves.of_run(run) } else { points };
+        let _ = self.shared.news.send(ToPageKind::Curves(news).to_bytes().into());
     }
 
     fn pages(&self) -> MutexGuard<'_, usize> {
         self.shared.pages.lock().expect("no holder of this lock panics")
+    }
+
+    fn notices(&self) -> MutexGuard<'_, Bytes> {
+        self.shared.notice.lock().expect("no holder of this lock panics")
     }
 
     fn curves(&self) -> MutexGuard<'_, CurveStore> {

@@ -9,11 +9,12 @@ use treadmill_bus::{
     actor::fetch_policy,
     observer::{Feed, watch_poses},
 };
+use treadmill_config::EnvTask;
 use treadmill_humanoid::{Model, mjcf::VisualMesh};
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident, page::PageScene};
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use super::{Served, hub::Hub, player::frame_of, scene};
+use super::{OpenPage, Served, hub::Hub, player::frame_of, scene};
 use crate::{
     launch::{exit_code::Usage, output::say, signals},
     shared::learner_address::{self, LearnerLink, ReachArgs},
@@ -25,8 +26,8 @@ const POSE_QUEUE: usize = 64;
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 /// Time without poses after which another actor is chosen.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(20);
-/// Terms of the reward in a pose.
-const REWARD_TERMS: [&str; 4] = ["survive", "forward", "ctrl", "contact"];
+/// Terms of the reward in a pose of Gymnasium's tasks. The second one is the whole reward of any other.
+const GYMNASIUMS_TERMS: [&str; 4] = ["survive", "forward", "ctrl", "contact"];
 
 /// Actor to show.
 pub struct Live<'a> {
@@ -50,12 +51,14 @@ impl Live<'_> {
         learner_address::connect(self.reach, Role::Observer, async |link| {
             signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
             let bundle = fetch_bundle(link).await?;
-            RunSettings::shown(&bundle).context("the run cannot be watched")?;
+            let settings = RunSettings::shown(&bundle).context("the run cannot be watched")?;
+            let is_gymnasiums = matches!(settings.environment.env.task, EnvTask::HumanoidV4 | EnvTask::HumanoidV5);
             let model = Model::from_mjcf(&bundle.model_xml)?;
             let address = served.link.clone();
-            let (hub, _requests) = served.serve(shutdown)?;
+            let OpenPage { hub, .. } = served.serve(shutdown)?;
             say(&format!("watch at {address}"));
-            let terms = REWARD_TERMS.map(str::to_string).to_vec();
+            let terms = if is_gymnasiums { &GYMNASIUMS_TERMS[..] } else { &["reward"] };
+            let terms = terms.iter().map(|term| (*term).to_string()).collect();
             let name = format!("{}, live", bundle.run);
             hub.show_scene(PageScene {
                 robots: vec![scene::robot(&name, &model, &self.visuals, terms)],
@@ -63,11 +66,18 @@ impl Live<'_> {
                 ground: scene::ground(&model),
                 ..PageScene::default()
             });
-            tokio::task::block_in_place(|| self.show(link, &bundle, &hub, shutdown))
+            tokio::task::block_in_place(|| self.show(link, &bundle, &hub, shutdown, is_gymnasiums))
         })
     }
 
-    fn show(&self, link: &LearnerLink, bundle: &PolicyBundle, hub: &Hub, shutdown: &Shutdown) -> anyhow::Result<()> {
+    fn show(
+        &self,
+        link: &LearnerLink,
+        bundle: &PolicyBundle,
+        hub: &Hub,
+        shutdown: &Shutdown,
+        is_gymnasiums: bool,
+    ) -> anyhow::Result<()> {
         while !shutdown.asked() {
             // Actors send poses only while someone subscribes.
             if !hub.wait_for_page(POLL_INTERVAL) {
@@ -84,7 +94,7 @@ impl Live<'_> {
                         bundle.run
                     );
                 }
-                shown.show(hub, &pose);
+                shown.show(hub, &pose, is_gymnasiums);
             }
         }
         Ok(())
@@ -101,7 +111,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn show(&mut self, hub: &Hub, pose: &Pose) {
+    fn show(&mut self, hub: &Hub, pose: &Pose, is_gymnasiums: bool) {
         let key = Some((pose.actor.clone(), pose.actor_incarnation, pose.episode));
         if self.key != key {
             self.key = key;
@@ -113,6 +123,9 @@ impl Shown {
         self.at_s = self.begun_s + pose.time_s;
         let mut frame = frame_of(pose);
         (frame.episode, frame.shown_s) = (self.episode, self.at_s);
+        if !is_gymnasiums {
+            frame.rewards = vec![pose.reward_forward];
+        }
         hub.show_frame(frame);
     }
 }

@@ -24,7 +24,11 @@ pub mod scene;
 pub mod server;
 pub mod show;
 
-use std::{net::TcpListener, sync::mpsc::Receiver, thread};
+use std::{
+    net::{SocketAddr, TcpListener},
+    sync::mpsc::Receiver,
+    thread,
+};
 
 use anyhow::Context;
 use treadmill_proto::page::FromPageKind;
@@ -40,26 +44,16 @@ pub struct Served {
     requests: Receiver<FromPageKind>,
     /// Address for the browser.
     pub link: String,
+    /// Address of the socket.
+    pub address: SocketAddr,
 }
 
 impl Served {
-    /// Serves the page, and plays what it shows, in threads of their own until the stop.
-    ///
-    /// # Errors
-    /// If a thread cannot be started.
-    pub fn start(self, show: Show, shutdown: &Shutdown) -> anyhow::Result<()> {
-        let (hub, requests) = self.serve(shutdown)?;
-        let shutdown = shutdown.clone();
-        let play = move || show.run(&hub, &requests, &shutdown);
-        thread::Builder::new().name("show".to_string()).spawn(play).context("no thread for the page")?;
-        Ok(())
-    }
-
     /// Serves the page in a thread of its own until the stop.
     ///
     /// # Errors
     /// If the thread cannot be started.
-    fn serve(self, shutdown: &Shutdown) -> anyhow::Result<(Hub, Receiver<FromPageKind>)> {
+    pub fn serve(self, shutdown: &Shutdown) -> anyhow::Result<OpenPage> {
         let Self { listener, door, hub, requests, .. } = self;
         let (served, shutdown) = (hub.clone(), shutdown.clone());
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
@@ -69,6 +63,26 @@ impl Served {
             }
         };
         thread::Builder::new().name("page".to_string()).spawn(serve).context("no thread for the page")?;
-        Ok((hub, requests))
+        Ok(OpenPage { hub, requests })
+    }
+}
+
+/// Page that is served, and shows nothing yet.
+pub struct OpenPage {
+    /// What pages see.
+    pub hub: Hub,
+    requests: Receiver<FromPageKind>,
+}
+
+impl OpenPage {
+    /// Plays what is shown in a thread of its own until the stop.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn play(self, show: Show, shutdown: &Shutdown) -> anyhow::Result<()> {
+        let (Self { hub, requests }, shutdown) = (self, shutdown.clone());
+        let play = move || show.run(&hub, &requests, &shutdown);
+        thread::Builder::new().name("show".to_string()).spawn(play).context("no thread for the page")?;
+        Ok(())
     }
 }

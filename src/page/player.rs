@@ -1,5 +1,7 @@
 //! One policy and its environment, played for the page.
 
+use std::{fs, time::SystemTime};
+
 use anyhow::Context;
 use treadmill_actor::{
     agent::{Agent, PolicyAgent},
@@ -13,10 +15,15 @@ use treadmill_proto::{
     page::{PageFrame, PageWorld, append_body, append_contact},
     pose::{BODY_NUMBERS, CONTACT_NUMBERS},
 };
-use treadmill_runtime::seeds;
+use treadmill_runtime::{run_folder::RunFolder, seeds};
 
 use crate::shared::saved_policy::{self, Origin, SavedPolicy};
 
+/// Times of the newest and the best checkpoint.
+type Stamp = [Option<SystemTime>; 2];
+
+/// A store is asked for a newer policy at every this many refreshes, since the whole state comes.
+const STORE_EVERY: u32 = 15;
 /// Most contacts of a frame.
 const CONTACTS_MAX: usize = 12;
 
@@ -32,6 +39,9 @@ pub struct Player {
     which: Option<CheckpointChoice>,
     saved: SavedPolicy,
     world: PageWorld,
+    /// Times of the checkpoints that were read; `None` for a store.
+    stamp: Option<Stamp>,
+    refreshes: u32,
     environment: Environment,
     agent: PolicyAgent,
     seed: u64,
@@ -58,6 +68,8 @@ impl Player {
         let mut player = Self {
             run: run.to_string(),
             which,
+            stamp: stamp(run),
+            refreshes: 0,
             saved,
             world,
             environment,
@@ -122,9 +134,19 @@ impl Player {
     /// # Errors
     /// If the checkpoint cannot be read. The old policy plays on.
     pub fn refresh(&mut self) -> anyhow::Result<bool> {
-        let Some(old) = self.origin() else { return Ok(false) };
+        let Some(old_steps) = self.origin().map(|origin| origin.env_steps) else { return Ok(false) };
+        let stamp = stamp(&self.run);
+        self.refreshes += 1;
+        let is_due = match stamp {
+            Some(_) => stamp != self.stamp,
+            None => self.refreshes.is_multiple_of(STORE_EVERY),
+        };
+        self.stamp = stamp;
+        if !is_due {
+            return Ok(false);
+        }
         let saved = saved_policy::load(&self.run, self.which)?;
-        if saved.origin.as_ref().is_none_or(|new| new.env_steps == old.env_steps) {
+        if saved.origin.as_ref().is_none_or(|new| new.env_steps == old_steps) {
             return Ok(false);
         }
         anyhow::ensure!(
@@ -192,7 +214,8 @@ impl Player {
             ..poses::body_pose(&self.environment, self.command())
         };
         let angles_mrad = physics.joint_angles().iter().map(|angle| (angle * 1000.0).round() as i32).collect();
-        PageFrame { robot, shown_s, rewards, angles_mrad, ..frame_of(&pose) }
+        let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
+        PageFrame { robot, shown_s, rewards, angles_mrad, velocity, ..frame_of(&pose) }
     }
 
     fn begin_episode(&mut self) {
@@ -215,8 +238,6 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
     poses.iter().for_each(|body| append_body(&mut bodies, base_m, body));
     let touching = pose.contacts.as_chunks::<CONTACT_NUMBERS>().0.iter().take(CONTACTS_MAX);
     touching.for_each(|contact| append_contact(&mut contacts, base_m, contact));
-    let actual =
-        if pose.base_velocity.is_empty() { vec![pose.velocity_mps, 0.0, 0.0] } else { pose.base_velocity.clone() };
     PageFrame {
         robot: 0,
         episode: pose.episode,
@@ -229,9 +250,17 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
         torques_cnm: pose.joint_torques_nm.iter().map(|torque| (torque * 100.0).round() as i32).collect(),
         rewards: vec![pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact],
         command: pose.command.clone(),
-        velocity: actual,
+        velocity: pose.base_velocity.clone(),
         distance_m: pose.distance_m,
     }
+}
+
+/// Returns when the newest and the best checkpoint of a run's folder were written; `None` without any.
+fn stamp(run: &str) -> Option<Stamp> {
+    let checkpoints = RunFolder::open(run).ok()?.checkpoints();
+    let written = |name| fs::metadata(checkpoints.join(name)).and_then(|file| file.modified()).ok();
+    let found = ["latest.bundle", "best.bundle"].map(written);
+    found.iter().any(Option::is_some).then_some(found)
 }
 
 fn build(tasks: &TaskRegistry, run: &str, saved: &SavedPolicy, world: &PageWorld) -> anyhow::Result<Environment> {

@@ -13,13 +13,11 @@ const GROUND: [f64; 3] = [0.55, 0.56, 0.58];
 /// Returns a robot by the meshes of its file, or by its colliding shapes if there are none.
 #[must_use]
 pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Vec<String>) -> PageRobot {
+    // The file may be of another robot than this one.
+    let is_of_file = visuals.iter().any(|visual| model.links.iter().any(|link| link.name == visual.link));
     let body = |(index, body): (usize, &treadmill_humanoid::model::Body)| PageBody {
         name: body.name.clone(),
-        meshes: if visuals.is_empty() {
-            shapes(model, index).collect()
-        } else {
-            of_file(model, index, visuals).collect()
-        },
+        meshes: if !is_of_file { shapes(model, index).collect() } else { of_file(model, index, visuals).collect() },
     };
     let hinge = |hinge: &treadmill_humanoid::model::Hinge| PageHinge {
         name: hinge.name.clone(),

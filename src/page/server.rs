@@ -23,7 +23,7 @@ use treadmill_proto::page::{FROM_PAGE_BYTES_MAX, FromPage, ToPageKind};
 use treadmill_runtime::shutdown::Shutdown;
 
 use super::{
-    doors::{Door, TlsListener},
+    doors::{BoundedListener, Door, TlsListener},
     hub::{Hub, PAGES_MAX, PageView},
 };
 
@@ -37,8 +37,8 @@ const FILES: [(&str, &str, &[u8]); 4] = [
     ("/style.css", "text/css; charset=utf-8", include_bytes!("../../page/dist/style.css")),
     ("/licences.txt", "text/plain; charset=utf-8", include_bytes!("../../page/dist/licences.txt")),
 ];
-/// Time after which a page that takes nothing is given up.
-const SEND_TIMEOUT: Duration = Duration::from_secs(10);
+/// Longest time that one message may take, as the meshes of a robot through a slow tunnel.
+const SEND_TIMEOUT: Duration = Duration::from_secs(120);
 
 /// Serves the page until the stop.
 ///
@@ -54,9 +54,10 @@ pub async fn serve(listener: TcpListener, door: Door, hub: Hub, shutdown: Shutdo
     let router = router.layer(guarded).with_state((hub, shutdown.clone()));
     let stopped = async move { shutdown.wait().await };
     let served = match door {
-        Door::Loopback => axum::serve(listener, router).with_graceful_shutdown(stopped).await,
+        Door::Loopback => axum::serve(BoundedListener::new(listener), router).with_graceful_shutdown(stopped).await,
         Door::Token(_, config) => {
-            axum::serve(TlsListener::new(listener, config)?, router).with_graceful_shutdown(stopped).await
+            let listener = BoundedListener::new(TlsListener::new(listener, config)?);
+            axum::serve(listener, router).with_graceful_shutdown(stopped).await
         }
     };
     served.context("the page cannot be served")
@@ -99,13 +100,17 @@ async fn converse(mut socket: WebSocket, hub: Hub) {
         send(&mut socket, full.to_bytes().into()).await;
         return;
     };
-    let PageView { mut scene, mut frames, mut news, curves } = hub.view();
+    let PageView { mut scene, mut frames, mut news, curves, notice, mut generation } = hub.view();
     let newest = scene.borrow_and_update().clone();
-    if !newest.is_empty() && !send(&mut socket, newest).await || !send(&mut socket, curves).await {
-        return;
+    for message in [newest, curves, notice] {
+        if !message.is_empty() && !send(&mut socket, message).await {
+            return;
+        }
     }
     loop {
         let message = tokio::select! {
+            // The page connects again, and receives the curves as they are now.
+            _ = generation.changed() => return,
             changed = scene.changed() => match changed {
                 Ok(()) => scene.borrow_and_update().clone(),
                 Err(_) => return,

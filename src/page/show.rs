@@ -8,6 +8,7 @@ use std::{
 };
 
 use treadmill_actor::poses::stride;
+use treadmill_config::ChosenTask;
 use treadmill_humanoid::{TaskRegistry, mjcf::VisualMesh};
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_proto::page::{FromPageKind, PageCommand, PagePush, PageScene};
@@ -26,7 +27,9 @@ const IDLE_EVERY: Duration = Duration::from_millis(200);
 
 /// What is shown.
 pub struct Show {
-    /// RUN of each policy, see [`Player::load`].
+    /// Title of the page.
+    pub title: String,
+    /// RUN of each policy, see [`Player::load`]; none shows only curves.
     pub runs: Vec<String>,
     /// Checkpoint; by default the best or else the newest.
     pub which: Option<CheckpointChoice>,
@@ -46,19 +49,25 @@ impl Show {
         let mut logs: Vec<RunLog> =
             self.logs.iter().map(|(file, run)| RunLog::new(file.clone(), run.clone())).collect();
         let mut stage: Option<Stage> = None;
+        if self.runs.is_empty() {
+            hub.show_scene(PageScene { title: self.title.clone(), ..PageScene::default() });
+        }
         while !shutdown.asked() {
             if !hub.wait_for_page(IDLE_EVERY) {
-                // What was asked for while the last page closed.
+                // What was asked for while the last page closed, and its command, end with it.
                 requests.try_iter().for_each(drop);
+                stage.iter_mut().for_each(Stage::release);
                 continue;
             }
             for log in &mut logs {
-                hub.add_points(log.new_points());
+                let (points, anew) = log.new_points();
+                hub.add_points(log.run(), points, anew);
             }
-            if stage.is_none() {
+            if stage.is_none() && !self.runs.is_empty() {
                 match Stage::open(&self) {
                     Ok(opened) => {
                         hub.show_scene(opened.scene(&self, hub.steers()));
+                        hub.notice("");
                         stage = Some(opened);
                     }
                     Err(why) => hub.notice(format!("nothing to show yet: {}", error_chain(&*why))),
@@ -66,7 +75,7 @@ impl Show {
             }
             let until = Instant::now() + REFRESH_EVERY;
             let Some(stage) = &mut stage else {
-                thread::sleep(IDLE_EVERY);
+                thread::sleep(REFRESH_EVERY);
                 continue;
             };
             if let Err(why) = stage.play(&self, hub, requests, until, shutdown) {
@@ -80,7 +89,7 @@ impl Show {
 }
 
 /// Returns the last part of a path.
-fn short(run: &str) -> &str {
+pub fn short(run: &str) -> &str {
     run.trim_end_matches('/').rsplit('/').next().unwrap_or(run)
 }
 
@@ -108,13 +117,14 @@ impl Stage {
         let first = &self.players[0];
         let velocity = &first.config().velocity;
         let ranges = [velocity.lin_vel_x_mps, velocity.lin_vel_y_mps, velocity.ang_vel_z_radps];
-        let has_commands = first.command().is_some();
+        // An own task may have commands without ranges.
+        let has_commands = first.config().env.chosen_task() == ChosenTask::Velocity;
         // A command of 0 stands, also where none was trained.
         let ends = |end: fn(f64, f64) -> f64, index: usize| -> Vec<f32> {
             ranges.iter().filter(|_| has_commands).map(|range| end(range[index], 0.0) as f32).collect()
         };
         PageScene {
-            title: show.runs.iter().map(|run| short(run)).collect::<Vec<_>>().join(", "),
+            title: show.title.clone(),
             robots: self.players.iter().map(robot).collect(),
             ground: scene::ground(first.model()),
             command_low: ends(f64::min, 0),
@@ -134,9 +144,9 @@ impl Stage {
         until: Instant,
         shutdown: &Shutdown,
     ) -> anyhow::Result<()> {
-        // After a stall or without pages it goes on from now: lost time played fast could not be steered.
-        self.due = self.due.max(Instant::now().checked_sub(LATE_MAX).unwrap_or(self.due));
-        while self.due < until && hub.has_pages() && !shutdown.asked() {
+        while Instant::now() < until && hub.has_pages() && !shutdown.asked() {
+            // After a stall or without pages it goes on from now: lost time played fast could not be steered.
+            self.due = self.due.max(Instant::now().checked_sub(LATE_MAX).unwrap_or(self.due));
             for request in requests.try_iter() {
                 self.obey(show, hub, &request)?;
             }
@@ -170,6 +180,13 @@ impl Stage {
             }
         }
         Ok(())
+    }
+
+    /// Gives the robots their own commands again.
+    fn release(&mut self) {
+        if self.command.take().is_some() {
+            self.players.iter_mut().for_each(|player| player.steer(None));
+        }
     }
 
     fn obey(&mut self, show: &Show, hub: &Hub, request: &FromPageKind) -> anyhow::Result<()> {

@@ -109,7 +109,7 @@ fn a_training_run_is_shown_and_found_again_after_its_learner_was_killed() {
     let address = format!("http://{listen}/");
     let page = browser.open(&address, WIDE);
     browser.wait_for(&page, "window.treadmill?.frames() > 10");
-    browser.wait_for(&page, "document.querySelectorAll('.uplot').length > 2");
+    browser.wait_for(&page, "document.querySelectorAll('#charts .uplot').length > 2");
     browser.screenshot(&page).keep("train.png");
     training.signal(libc::SIGKILL);
     let _ = training.wait();
@@ -139,6 +139,7 @@ fn an_actor_that_trains_is_watched_live() {
 /// Sends a request and returns the answer's first line.
 fn answer(address: &str, request: &str) -> String {
     let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(TIMEOUT)).unwrap();
     stream.write_all(request.as_bytes()).unwrap();
     let mut text = String::new();
     let mut bytes = [0; 4096];
@@ -178,8 +179,9 @@ fn invalid_arguments_are_refused_by_name() {
     refused(&["absent"], 2, &["absent"]);
     refused(&[WALK, "absent"], 2, &["absent"]);
     refused(&[WALK, WALK, WALK, WALK, WALK], 2, &["5 policies", "at most 4"]);
-    refused(&[WALK, "--page-listen", "0.0.0.0:9090"], 2, &["--page-listen 0.0.0.0:9090", "ssh -L 9090:127.0.0.1:9090"]);
+    refused(&[WALK, "--page-listen", "0.0.0.0:7448"], 2, &["--page-listen 0.0.0.0:7448", "ssh -L 7448:127.0.0.1:7448"]);
     refused(&[WALK, "--actor", "a"], 2, &["--live"]);
+    refused(&["--live", "run", "--steer"], 2, &["--live", "--steer"]);
     refused(&[WALK, "--model", "absent.xml"], 1, &["absent.xml"]);
     refused(&["--live", "--connect", "tcp/127.0.0.1:9", "--actor", "a/b"], 2, &["--actor", "a/b"]);
     refused(&["--live", "--connect", "tcp/127.0.0.1:9"], 1, &["no process listens at tcp/127.0.0.1:9"]);

@@ -93,8 +93,9 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
                 format!("{:.1} m at {:.2} m/s", distance_m.unwrap_or_default(), velocity_mps.unwrap_or_default())
             }
         };
-        let (length, falls) = (run.length_mean.unwrap_or_default(), 100.0 * run.fall_fraction.unwrap_or_default());
-        writeln!(out, "  episodes   return {return_mean:.0}, {moved}, {length:.0} steps long, {falls:.0} % fell")?;
+        let length = run.length_mean.unwrap_or_default();
+        let falls = run.fall_fraction.map(|share| format!(", {:.0} % fell", 100.0 * share)).unwrap_or_default();
+        writeln!(out, "  episodes   return {return_mean:.0}, {moved}, {length:.0} steps long{falls}")?;
     }
     writeln!(
         out,
