@@ -20,7 +20,7 @@ const clamp = (value: number, low: number, high: number) => Math.max(low, Math.m
 // A copy, as bytes of a message may begin at an odd address.
 const unpack = (bytes: Uint8Array) => new Int16Array(bytes.slice(0, bytes.length & ~1).buffer);
 
-/** Index of the last moment at or before `time_s`; -1 if there is none. */
+/** Index of the last moment at or before `time_s`; -1 if all moments are later. */
 function find(track: readonly Moment[], time_s: number): number {
   let [low, high] = [0, track.length];
   while (low < high) {

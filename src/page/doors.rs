@@ -52,7 +52,7 @@ impl Door {
     /// Reads a certificate of a listening role in `folder`, and draws a token.
     ///
     /// # Errors
-    /// If there is none, or it cannot be used.
+    /// If the folder has no such certificate, or it cannot be used.
     pub fn with_tls(folder: &Path) -> anyhow::Result<Self> {
         let of = |role| Credentials { folder: folder.to_path_buf(), role };
         let mut own = [Role::Learner, Role::Router].map(of).into_iter().filter(|own| own.missing().is_none());

@@ -172,7 +172,7 @@ impl<'a> ActorPoses<'a> {
         Ok(())
     }
 
-    /// Returns the next pose of the current actor; `None` if there is none within [`POLL_INTERVAL`].
+    /// Returns the next pose of the current actor; `None` if no pose comes within [`POLL_INTERVAL`].
     fn next(&mut self, hub: &Hub) -> anyhow::Result<Option<Pose>> {
         let Some(message) = self.feed.next(POLL_INTERVAL) else {
             if self.requested.is_none() && self.current.is_some() && self.last_pose.elapsed() >= SILENCE_TIMEOUT {
