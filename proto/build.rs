@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=onnx");
     prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;
     println!("cargo:rerun-if-changed=tensorboard");
-    let files = protox::compile(["event.proto", "hparams.proto"], ["tensorboard"])?;
+    let files = protox::compile(["event.proto", "hparams.proto", "layout.proto"], ["tensorboard"])?;
     // Ordered maps, so that equal configurations give equal bytes.
     prost_build::Config::new().bytes(["."]).btree_map(["."]).compile_fds(files)?;
     Ok(())

@@ -12,15 +12,18 @@ use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 
 use crate::{environments::Environments, identity::ActorIdentity};
 
-/// Time between two poses (s): 33 poses per second, of at most 60 that the interface allows.
-const INTERVAL_S: f64 = 0.03;
+/// Most poses per second.
+const RATE_HZ: f64 = 30.0;
 /// Bound of the queue: an episode of 15 s. Of a longer one, only the beginning is shown.
 const QUEUED_POSES_MAX: usize = 512;
 
-/// Returns the control steps from one pose to the next.
+/// Whether the pose after this many control steps is shown: 30 of those of a second, or all if there are fewer. Where a
+/// second's steps are no multiple of 30, the steps between two poses alternate.
 #[must_use]
-pub fn stride(control_step_s: f64) -> u32 {
-    (INTERVAL_S / control_step_s).round().max(1.0) as u32
+pub fn is_shown(step: u32, control_step_s: f64) -> bool {
+    // A step that ends an interval may be rounded to either side.
+    let intervals = |step: u32| (f64::from(step) * control_step_s * RATE_HZ + 1e-6).floor();
+    step == 0 || intervals(step) > intervals(step - 1)
 }
 
 /// Records poses of the first environment, on the physics thread.
@@ -51,7 +54,7 @@ impl PoseSampler {
             let is_queue_empty = self.queue.capacity() == self.queue.max_capacity();
             self.episode = (first.step == 0 && is_queue_empty).then_some(first.episode);
         }
-        if self.episode.is_none() || !first.step.is_multiple_of(stride(first.environment.control_step_s())) {
+        if self.episode.is_none() || !is_shown(first.step, first.environment.control_step_s()) {
             return;
         }
         let physics = first.environment.physics();
@@ -77,7 +80,7 @@ impl PoseSampler {
 /// Publishes recorded poses in real time.
 pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher, control_step_s: f64) {
     let watched = publisher.watched();
-    let mut due = tokio::time::interval(Duration::from_secs_f64(f64::from(stride(control_step_s)) * control_step_s));
+    let mut due = tokio::time::interval(Duration::from_secs_f64(control_step_s.max(1.0 / RATE_HZ)));
     due.set_missed_tick_behavior(MissedTickBehavior::Delay);
     while let Some(pose) = poses.recv().await {
         // Without observers the queue is drained, so that the next observer does not get old poses.
@@ -103,12 +106,15 @@ pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
     let other = StepInfo { reward_forward: reward, x_velocity_mps, ..StepInfo::default() };
     let info = environment.info().copied().unwrap_or(other);
     let narrow = |numbers: [f64; 3]| numbers.map(|number| number as f32).to_vec();
+    let all = |numbers: &[f64]| numbers.iter().map(|number| *number as f32).collect();
     Pose {
         command: command.map(narrow).unwrap_or_default(),
         base_velocity: command.map(|_| narrow(heading_velocity(physics))).unwrap_or_default(),
         bodies: physics.body_motions().flat_map(|motion| body_numbers(&motion)).collect(),
         contacts: contacts(physics),
-        joint_torques_nm: physics.joint_torques_nm().iter().map(|torque| *torque as f32).collect(),
+        joint_torques_nm: all(physics.joint_torques_nm()),
+        joint_angles_rad: all(physics.joint_angles()),
+        centre_of_mass_m: narrow(physics.centre_of_mass().coords.into()),
         reward_survive: info.reward_survive as f32,
         reward_forward: info.reward_forward as f32,
         reward_ctrl: info.reward_ctrl as f32,
@@ -147,8 +153,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn poses_are_about_30_ms_apart_whatever_the_control_step() {
-        let strides = [0.001, 0.005, 0.01, 0.015, 0.02, 0.03, 0.1].map(stride);
-        assert_eq!(strides, [30, 6, 3, 2, 2, 1, 1]);
+    fn thirty_poses_of_a_second_are_shown_or_all_of_fewer() {
+        for (step_s, expected) in [(0.001, 30), (0.005, 30), (0.01, 30), (0.015, 30), (0.02, 30), (0.04, 25), (0.1, 10)]
+        {
+            let steps = (10.0_f64 / step_s).round() as u32;
+            let shown = (1..=steps).filter(|step| is_shown(*step, step_s)).count();
+            assert_eq!(shown, 10 * expected, "{step_s}");
+        }
+        let shown: Vec<u32> = (1..=10).filter(|step| is_shown(*step, 0.02)).collect();
+        assert_eq!(shown, [2, 4, 5, 7, 9, 10]);
     }
 }

@@ -4,6 +4,7 @@ mod options;
 mod physics_thread;
 
 use std::{
+    collections::VecDeque,
     sync::{Arc, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
@@ -39,6 +40,9 @@ const NAME_TIMEOUT: Duration = Duration::from_secs(15);
 const NAME_RETRY: Duration = Duration::from_millis(500);
 /// Interval of asking whether the endpoint is a standby's: a learner that leads may be overtaken.
 const PLACE_CHECK_EVERY: Duration = Duration::from_secs(10);
+
+/// Time over which the speed in the statistics is measured, as the learner measures its own.
+const RATE_WINDOW: Duration = Duration::from_secs(10);
 
 /// Reason for which a membership in a run ended.
 enum EndReason {
@@ -225,7 +229,7 @@ impl<'a> Membership<'a> {
         let mut deliveries = JoinSet::new();
         let mut refreshes = JoinSet::new();
         let (mut place_due, mut place_checks) = (tokio::time::interval(PLACE_CHECK_EVERY), JoinSet::new());
-        let mut rate = RateMeter { since: Instant::now(), env_steps: 0 };
+        let mut rate = RateMeter { marks: [(Instant::now(), 0)].into() };
         loop {
             tokio::select! {
                 () = shutdown.wait() => return Ok(EndReason::StopRequested),
@@ -331,15 +335,18 @@ fn restore(collector: &mut Collector, state: &ActorState, actor: &str) {
 
 /// Measures environment steps per second between two updates.
 struct RateMeter {
-    since: Instant,
-    env_steps: u64,
+    /// Times and environment steps of the last statistics.
+    marks: VecDeque<(Instant, u64)>,
 }
 
 impl RateMeter {
     fn update(&mut self, env_steps: u64) -> f64 {
-        let elapsed_s = self.since.elapsed().as_secs_f64().max(1e-9);
-        let rate = (env_steps - self.env_steps) as f64 / elapsed_s;
-        *self = Self { since: Instant::now(), env_steps };
-        rate
+        let now = Instant::now();
+        self.marks.push_back((now, env_steps));
+        while self.marks.get(1).is_some_and(|(at, _)| now.duration_since(*at) > RATE_WINDOW) {
+            self.marks.pop_front();
+        }
+        let (since, before) = self.marks[0];
+        (env_steps - before) as f64 / now.duration_since(since).as_secs_f64().max(1e-9)
     }
 }

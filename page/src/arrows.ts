@@ -1,7 +1,7 @@
-// Arrows of forces and velocities, and the trail of the base.
+// Arrows of forces and velocities, trails of the base and the feet, and the centre of mass.
 import * as THREE from "three";
-import { POSITION_M, type Robot } from "./robots";
-import type { Sample, Timeline } from "./timeline";
+import type { Robot } from "./robots";
+import { BODY_NUMBERS, POSITION_M, type Sample, type Timeline } from "./timeline";
 
 const FORCE_N = 0.1;
 const FORCE_N_MIN = 3;
@@ -11,6 +11,7 @@ const ARROW_M_MAX = 1.2;
 const TRAIL_S = 5;
 const TRAIL_STEP_S = 0.05;
 const CAPACITY = 512;
+const CENTRE_M = 0.05;
 const UP = new THREE.Vector3(0, 0, 1);
 
 /** Rods with or without a head, all of one colour, drawn by two calls. */
@@ -23,13 +24,17 @@ class Rods {
   private readonly scale = new THREE.Vector3();
   private readonly matrix = new THREE.Matrix4();
 
-  constructor(color: number, private readonly radius_m: number) {
-    const look = { color, emissive: color, emissiveIntensity: 0.45, roughness: 0.6 };
+  /** `isInside`: drawn over the robot. */
+  constructor(color: number, private readonly radius_m: number, isInside = false) {
+    const glow = { color, emissive: color, emissiveIntensity: 0.45, roughness: 0.6 };
+    const look = { ...glow, depthTest: !isInside, transparent: isInside };
     const part = (shape: THREE.BufferGeometry) => {
       shape.translate(0, 0.5, 0).rotateX(Math.PI / 2);
       const mesh = new THREE.InstancedMesh(shape, new THREE.MeshStandardMaterial(look), CAPACITY);
       // Bounds of instances would be computed once and go stale.
       mesh.frustumCulled = false;
+      // Later than the ground, which is transparent too.
+      mesh.renderOrder = isInside ? 1 : 0;
       this.group.add(mesh);
       return mesh;
     };
@@ -62,7 +67,22 @@ class Rods {
   }
 }
 
-export type Marking = "contacts" | "command" | "velocity" | "trail";
+/** Balls with the checks that mark a centre of mass, drawn over the robot. */
+function balls(): THREE.InstancedMesh {
+  const [dark, light] = [[16, 22, 32, 255], [255, 255, 255, 255]];
+  const checks = Uint8Array.from([dark, light, dark, light, light, dark, light, dark].flatMap((texel) => texel ?? []));
+  const map = new THREE.DataTexture(checks, 4, 2);
+  map.needsUpdate = true;
+  const look = new THREE.MeshBasicMaterial({ map, depthTest: false, transparent: true, toneMapped: false });
+  const shape = new THREE.SphereGeometry(CENTRE_M, 24, 16).rotateX(Math.PI / 2);
+  const mesh = new THREE.InstancedMesh(shape, look, CAPACITY);
+  mesh.frustumCulled = false;
+  mesh.renderOrder = 2;
+  return mesh;
+}
+
+export const MARKINGS = ["contacts", "command", "velocity", "trail", "left", "right", "centre"] as const;
+export type Marking = (typeof MARKINGS)[number];
 
 export class Arrows {
   readonly group = new THREE.Group();
@@ -71,17 +91,28 @@ export class Arrows {
     command: new Rods(0x2bb24c, 0.016),
     velocity: new Rods(0x2f7bf6, 0.016),
     trail: new Rods(0xf5b700, 0.007),
+    left: new Rods(0x12a5a0, 0.006),
+    right: new Rods(0xdb4a9b, 0.006),
+    centre: new Rods(0x9b5de5, 0.006, true),
   };
+  /** Whether the ground is the plane z = 0. */
+  isFlat = true;
+  private readonly balls = balls();
+  private readonly matrix = new THREE.Matrix4();
   private readonly from = new THREE.Vector3();
   private readonly to = new THREE.Vector3();
+  private readonly part = new THREE.Vector3();
 
   constructor() {
     for (const rods of Object.values(this.rods)) this.group.add(rods.group);
+    this.rods.centre.group.add(this.balls);
   }
 
   /** Draws what belongs to the robots at the moment of the timeline. */
   draw(robots: readonly Robot[], timeline: Timeline): void {
     for (const rods of Object.values(this.rods)) rods.begin();
+    this.balls.count = 0;
+    this.balls.instanceMatrix.needsUpdate = true;
     for (const [index, robot] of robots.entries()) {
       const sample = timeline.sample(index);
       if (sample !== undefined) this.add(robot, sample, timeline, index);
@@ -98,7 +129,27 @@ export class Arrows {
     }
     this.velocity(this.rods.command, robot, frame.command, 0.16);
     this.velocity(this.rods.velocity, robot, frame.velocity, 0.1);
-    if (this.rods.trail.group.visible) this.trail(robot, sample.before.frame.episode, timeline, index);
+    const { episode } = sample.before.frame;
+    const trail = (rods: Rods, body?: number) => {
+      if (rods.group.visible) this.trail(rods, robot, episode, timeline, index, body);
+    };
+    trail(this.rods.trail);
+    for (const foot of robot.feet.left) trail(this.rods.left, foot);
+    for (const foot of robot.feet.right) trail(this.rods.right, foot);
+    if (robot.hasCentre && this.rods.centre.group.visible) this.centre(robot);
+  }
+
+  /** Where a body is drawn. */
+  private at(robot: Robot, body: number): THREE.Vector3 {
+    return this.to.copy(robot.base).add(robot.bodies[body]!.position);
+  }
+
+  private centre(robot: Robot): void {
+    this.balls.setMatrixAt(this.balls.count++, this.matrix.makeTranslation(robot.centre));
+    const feet = [...robot.feet.left, ...robot.feet.right];
+    const lowest_m = Math.min(...feet.map((foot) => this.at(robot, foot).z));
+    const ground_m = this.isFlat || feet.length === 0 ? 0 : lowest_m;
+    this.rods.centre.rod(robot.centre, this.to.copy(robot.centre).setZ(ground_m));
   }
 
   private velocity(rods: Rods, robot: Robot, [forward_mps, left_mps]: readonly number[], above_m: number): void {
@@ -108,15 +159,18 @@ export class Arrows {
     rods.arrow(this.from, this.to);
   }
 
-  private trail(robot: Robot, episode: bigint, timeline: Timeline, index: number): void {
+  /** Draws where the base, or a body, was in the last seconds. */
+  private trail(rods: Rods, robot: Robot, episode: bigint, timeline: Timeline, index: number, body?: number): void {
     let last_s = -Infinity;
-    timeline.visit(index, TRAIL_S, ({ frame, shown_s }) => {
+    timeline.visit(index, TRAIL_S, ({ frame, shown_s, bodies }) => {
       if (frame.episode !== episode || shown_s < last_s + TRAIL_STEP_S) return;
-      this.to.fromArray(frame.baseM).setY(frame.baseM[1]! + robot.offset_m);
-      if (last_s > 0) this.rods.trail.rod(this.from, this.to);
+      this.to.fromArray(frame.baseM);
+      this.to.y += robot.offset_m;
+      if (body !== undefined) this.to.add(this.part.fromArray(bodies, BODY_NUMBERS * body));
+      if (last_s > 0) rods.rod(this.from, this.to);
       this.from.copy(this.to);
       last_s = shown_s;
     });
-    if (last_s > 0) this.rods.trail.rod(this.from, robot.base);
+    if (last_s > 0) rods.rod(this.from, body === undefined ? robot.base : this.at(robot, body));
   }
 }

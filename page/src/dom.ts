@@ -13,9 +13,21 @@ export function say(target: Element, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
+/** Makes an element of a class, with text or elements in it. */
+export function make<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  name = "",
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[Tag] {
+  const made = document.createElement(tag);
+  made.className = name;
+  made.append(...children);
+  return made;
+}
+
 export function option(value: string, text = value): HTMLOptionElement {
-  const made = document.createElement("option");
-  [made.value, made.textContent] = [value, text];
+  const made = make("option", "", text);
+  made.value = value;
   return made;
 }
 

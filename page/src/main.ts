@@ -1,10 +1,12 @@
 // Page of Treadmill: takes messages of the server and draws the robots.
 import { equals } from "@bufbuild/protobuf";
+import type { Vector3 } from "three";
 import { Charts } from "./charts";
 import { Connection } from "./connection";
-import type { Marking } from "./arrows";
+import { MARKINGS } from "./arrows";
 import { element, input, onKey, say } from "./dom";
 import { PageRobotSchema, type PageRobot, type PageScene, type ToPage } from "./generated/page_pb";
+import { Fleet } from "./fleet";
 import { Panels } from "./panels";
 import { Steering } from "./steering";
 import { Timeline } from "./timeline";
@@ -12,15 +14,20 @@ import { Transport } from "./transport";
 import { View } from "./view";
 
 const PANELS_MS = 80;
+/** Durations of frames that are kept for tests. */
+const FRAME_TIMES = 240;
 
 const timeline = new Timeline();
 const view = new View(element<HTMLCanvasElement>("view"));
 const transport = new Transport(timeline, view);
 const panels = new Panels(timeline);
 const charts = new Charts();
+const fleet = new Fleet();
 const connection = new Connection(receive, (connected) => {
   element("banner").hidden = connected;
-  if (connected) charts.restart();
+  if (!connected) return;
+  charts.restart();
+  fleet.restart();
 });
 const steering = new Steering(connection);
 
@@ -31,6 +38,8 @@ function receive({ kind }: ToPage): void {
   else if (kind.case === "frame") timeline.add(kind.value);
   else if (kind.case === "curves") charts.add(kind.value);
   else if (kind.case === "notice") say(element("notice"), kind.value);
+  else if (kind.case === "status") fleet.add(kind.value);
+  else if (kind.case === "othersSteer") steering.setOthers(kind.value);
 }
 
 function setScene(scene: PageScene): void {
@@ -53,12 +62,15 @@ function cover(): void {
   const box = (id: string) => element(id).getBoundingClientRect();
   const narrow = getComputedStyle(element("tabs")).display !== "none";
   const [left, right] = narrow ? [0, 0] : [box("steer").right, innerWidth - box("numbers").left];
-  view.cover(left, right, box("title").bottom, innerHeight - box("transport").top);
+  const top = Math.max(box("title").bottom, box("alarms").bottom);
+  view.cover(left, right, top, innerHeight - box("transport").top);
 }
 
-for (const marking of ["contacts", "command", "velocity", "trail"] satisfies Marking[]) {
-  const box = input(`show-${marking}`);
-  box.addEventListener("change", () => (view.arrows.rods[marking].group.visible = box.checked));
+for (const marking of MARKINGS) {
+  const box = input(marking === "left" || marking === "right" ? "show-feet" : `show-${marking}`);
+  const show = () => (view.arrows.rods[marking].group.visible = box.checked);
+  box.addEventListener("change", show);
+  show();
 }
 input("follow").addEventListener("change", () => (view.following = input("follow").checked));
 const help = element<HTMLDialogElement>("help");
@@ -71,16 +83,25 @@ for (const head of document.querySelectorAll(".head")) {
   head.addEventListener("click", () => (head.ariaExpanded = String(head.ariaExpanded !== "true")));
 }
 const sizes = new ResizeObserver(cover);
-for (const id of ["view", "steer", "numbers", "curves", "transport"]) sizes.observe(element(id));
+for (const id of ["view", "steer", "numbers", "curves", "fleet", "alarms", "transport"]) sizes.observe(element(id));
 
 let before_ms = performance.now();
 let panels_ms = 0;
+/** Times of the last pictures, and from a pose to its picture. */
+const frames_ms: number[] = [];
+const ages_ms: number[] = [];
+function keep(times_ms: number[], time_ms: number): void {
+  if (times_ms.push(time_ms) > FRAME_TIMES) times_ms.shift();
+}
+
 function draw(now_ms: number): void {
   requestAnimationFrame(draw);
   const wall_s = Math.max(0, now_ms - before_ms) / 1000;
   before_ms = now_ms;
+  keep(frames_ms, 1000 * wall_s);
   timeline.advance(Math.min(wall_s, 0.5));
   view.draw(timeline, wall_s);
+  keep(ages_ms, 1000 * timeline.age_s);
   steering.poll(now_ms);
   if (now_ms - panels_ms < PANELS_MS) return;
   panels_ms = now_ms;
@@ -88,8 +109,9 @@ function draw(now_ms: number): void {
   panels.update();
   steering.update(timeline.newest(0));
   const curves = charts.update();
-  element("curves").hidden = !curves;
-  element("tab-curves").hidden = !curves;
+  element("curves").hidden = element("tab-curves").hidden = !curves;
+  const status = fleet.update(now_ms);
+  element("fleet").hidden = element("tab-fleet").hidden = !status;
 }
 requestAnimationFrame(draw);
 
@@ -98,9 +120,15 @@ function shown() {
   const sample = timeline.sample(0);
   const robot = view.robots[0];
   if (sample === undefined || robot === undefined) return undefined;
-  const { episode, command, velocity } = (sample.mix < 0.5 ? sample.before : sample.after).frame;
-  const base_m = [robot.base.x, robot.base.y - robot.offset_m, robot.base.z];
-  return { robot: 0, episode: Number(episode), shown_s: timeline.time_s, base_m, command, velocity };
+  const { episode, timeS: time_s, command, velocity, anglesMrad } = (sample.mix < 0.5 ? sample.before : sample.after).frame;
+  const inWorld = ({ x, y, z }: Vector3) => [x, y - robot.offset_m, z];
+  return {
+    ...{ robot: 0, episode: Number(episode), time_s, shown_s: timeline.time_s, command, velocity },
+    base_m: inWorld(robot.base),
+    bodies_m: robot.bodies.map((body) => inWorld(body.position.clone().add(robot.base))),
+    angles_rad: anglesMrad.map((angle_mrad) => angle_mrad / 1000),
+    centre_of_mass_m: robot.hasCentre ? inWorld(robot.centre) : undefined,
+  };
 }
 
 // For tests of the page in a browser.
@@ -110,5 +138,10 @@ const treadmill = {
   robots: () => view.robots.length,
   connected: () => connection.connected,
   steers: () => steering.steers,
+  othersSteer: () => steering.othersSteer,
+  fleet: () => fleet.counts,
+  bands: () => charts.bands,
+  frameTimes: () => [...frames_ms],
+  latencies: () => [...ages_ms],
 };
 Object.assign(window, { treadmill });

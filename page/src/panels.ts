@@ -1,7 +1,7 @@
 // Numbers of one robot: speeds, reward terms and a joint.
 import uPlot from "uplot";
 import { axes } from "./charts";
-import { choice, colour, element, option, say } from "./dom";
+import { choice, colour, element, make, option, say } from "./dom";
 import type { PageFrame, PageRobot } from "./generated/page_pb";
 import type { Timeline } from "./timeline";
 
@@ -10,9 +10,11 @@ const PLOT_S = 5;
 const PLOT_HEIGHT = 84;
 /** The full length of a bar is the largest term of late: it fades by this factor at each update. */
 const LARGEST_FADE = 0.99;
+/** Unit of the reward's terms. */
+const REWARD = 1e-4;
 
 /** Curve of the last seconds with a line at each finite limit. */
-function limited(target: HTMLElement, limits: number[]): (times: number[], values: number[]) => void {
+function limited(target: HTMLElement, limits: number[]): (times: number[], values: (number | null)[]) => void {
   target.replaceChildren();
   const lines = limits.filter(Number.isFinite);
   const line = { width: 1.5, points: { show: false } };
@@ -57,12 +59,9 @@ export class Panels {
     this.largest = 0;
     element("rewards").replaceChildren();
     this.terms = rewardTerms.map((name) => {
-      const [row, bar, label, value] = ["div", "i", "span", "output"].map((tag) => document.createElement(tag));
-      row!.className = "term";
-      row!.append(bar!, label!, value!);
-      label!.textContent = name;
-      element("rewards").append(row!);
-      return { value: value!, bar: bar! };
+      const [bar, value] = [make("i"), make("output")];
+      element("rewards").append(make("div", "term", bar, make("span", "", name), value));
+      return { value, bar };
     });
     element("rewards-head").hidden = rewardTerms.length === 0;
     choice("hinge").replaceChildren(...hinges.map((hinge, at) => option(String(at), hinge.name)));
@@ -87,9 +86,9 @@ export class Panels {
     say(element("episode"), String(frame.episode));
     say(element("distance"), `${frame.distanceM.toFixed(2)} m`);
     this.velocities(frame);
-    this.largest = Math.max(1e-3, LARGEST_FADE * this.largest, ...frame.rewards.map(Math.abs));
+    this.largest = Math.max(1e-3, LARGEST_FADE * this.largest, ...frame.rewardsE4.map((term) => Math.abs(term) * REWARD));
     for (const [index, { value, bar }] of this.terms.entries()) {
-      const reward = frame.rewards[index] ?? 0;
+      const reward = (frame.rewardsE4[index] ?? 0) * REWARD;
       say(value, reward.toFixed(3));
       bar.style.transform = `scaleX(${reward / this.largest})`;
       bar.className = reward < 0 ? "negative" : "";
@@ -114,18 +113,17 @@ export class Panels {
 
   private joint(now: PageFrame): void {
     const at = Number(choice("hinge").value);
-    // Actors that train send no angles.
-    const angle_rad = (frame: PageFrame) => (frame.anglesMrad[at] ?? NaN) / 1000;
+    const angle_rad = ({ anglesMrad }: PageFrame) => (at in anglesMrad ? anglesMrad[at]! / 1000 : null);
     const torque_nm = (frame: PageFrame) => (frame.torquesCnm[at] ?? 0) / 100;
-    const [times, angles, torques]: [number[], number[], number[]] = [[], [], []];
+    const [times, angles, torques]: [number[], (number | null)[], number[]] = [[], [], []];
     this.timeline.visit(this.robot, PLOT_S, ({ shown_s, frame }) => {
       times.push(shown_s - this.timeline.time_s);
-      if (frame.anglesMrad.length > 0) angles.push(angle_rad(frame));
+      angles.push(angle_rad(frame));
       torques.push(torque_nm(frame));
     });
-    this.plots[0]?.(angles.length > 0 ? times : [], angles);
+    this.plots[0]?.(times, angles);
     this.plots[1]?.(times, torques);
-    say(element("angle"), now.anglesMrad.length > 0 ? angle_rad(now).toFixed(3) : "–");
+    say(element("angle"), angle_rad(now)?.toFixed(3) ?? "–");
     say(element("torque"), torque_nm(now).toFixed(2));
   }
 }

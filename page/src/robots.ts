@@ -2,26 +2,29 @@
 import * as THREE from "three";
 import type { PageMesh, PageRobot } from "./generated/page_pb";
 import { joined } from "./meshes";
-import type { Sample } from "./timeline";
+import { BODY_NUMBERS, type Sample } from "./timeline";
 
 /** Distance between robots that are compared, as all of them share one world frame. */
 export const SPACING_M = 1.5;
-/** Unit of the packed positions. */
-export const POSITION_M = 1e-4;
 
 export class Robot {
   readonly group = new THREE.Group();
   /** Where the base is drawn: its position in the world and the offset. */
   readonly base = new THREE.Vector3();
+  /** Where its centre of mass is drawn, if that is known. */
+  readonly centre = new THREE.Vector3();
+  hasCentre = false;
   yaw_rad = 0;
   /** Highest point above the base, and height, when it was first drawn (m). */
   top_m = 0.5;
   height_m = 1;
-  private readonly bodies: THREE.Group[] = [];
+  readonly bodies: THREE.Group[] = [];
+  /** Indices of the feet that were left and right of the base when it was first drawn. */
+  readonly feet: Record<"left" | "right", number[]> = { left: [], right: [] };
   private readonly from = new THREE.Quaternion();
   private readonly to = new THREE.Quaternion();
 
-  constructor(robot: PageRobot, readonly offset_m: number) {
+  constructor(private readonly robot: PageRobot, readonly offset_m: number) {
     const materials = new Map<number, THREE.Material>();
     for (const { meshes } of robot.bodies) {
       const body = new THREE.Group();
@@ -48,18 +51,24 @@ export class Robot {
 
   /** Takes the pose at `sample`. */
   place({ before, after, mix }: Sample): void {
-    const [a, b] = [before.frame.baseM, after.frame.baseM];
-    const between = (axis: number) => a[axis]! + mix * (b[axis]! - a[axis]!);
-    this.base.set(between(0), between(1) + this.offset_m, between(2));
+    const lerp = (to: THREE.Vector3, a: readonly number[], b: readonly number[]) => {
+      const between = (axis: number) => a[axis]! + mix * (b[axis]! - a[axis]!);
+      to.set(between(0), between(1) + this.offset_m, between(2));
+    };
+    lerp(this.base, before.frame.baseM, after.frame.baseM);
     this.group.position.copy(this.base);
+    const [from, to] = [before.frame.centreOfMassM, after.frame.centreOfMassM];
+    this.hasCentre = from.length === 3 && to.length === 3;
+    if (this.hasCentre) lerp(this.centre, from, to);
     const [p, q] = [before.bodies, after.bodies];
     for (const [index, body] of this.bodies.entries()) {
-      const at = 7 * index;
-      if (at + 7 > p.length || at + 7 > q.length) break;
-      const position = (axis: number) => (p[at + axis]! + mix * (q[at + axis]! - p[at + axis]!)) * POSITION_M;
+      const at = BODY_NUMBERS * index;
+      if (at + BODY_NUMBERS > p.length || at + BODY_NUMBERS > q.length) break;
+      const position = (axis: number) => p[at + axis]! + mix * (q[at + axis]! - p[at + axis]!);
       body.position.set(position(0), position(1), position(2));
-      this.from.set(p[at + 4]!, p[at + 5]!, p[at + 6]!, p[at + 3]!).normalize();
-      this.to.set(q[at + 4]!, q[at + 5]!, q[at + 6]!, q[at + 3]!).normalize();
+      this.from.fromArray(p, at + 3);
+      this.to.fromArray(q, at + 3);
+      // Takes the nearer of the two signs of a quaternion.
       body.quaternion.slerpQuaternions(this.from, this.to, mix);
     }
     const { x, y, z, w } = this.bodies[0]?.quaternion ?? this.from.identity();
@@ -70,6 +79,11 @@ export class Robot {
   private measure(): void {
     this.group.visible = true;
     this.group.updateMatrixWorld(true);
+    for (const foot of this.robot.feet) {
+      const { x, y } = this.bodies[foot]?.position ?? this.centre;
+      const isLeft = y * Math.cos(this.yaw_rad) > x * Math.sin(this.yaw_rad);
+      if (foot < this.bodies.length) this.feet[isLeft ? "left" : "right"].push(foot);
+    }
     const { min, max } = new THREE.Box3().setFromObject(this.group);
     if (min.z > max.z) return;
     [this.top_m, this.height_m] = [max.z - this.base.z, max.z - min.z];

@@ -49,7 +49,10 @@ export class Steering {
   );
   private readonly world = WORLD.map(([id, , , text]) => slider(id, text));
   private stickUsed = false;
+  /** Whether all sticks were at rest since another page steered: an axis that rests elsewhere must not steer. */
+  private stickRested = false;
   private stick_ms = 0;
+  private others = false;
 
   constructor(private readonly connection: Connection) {
     onKey((key) => {
@@ -62,7 +65,7 @@ export class Steering {
     });
     element("stop").addEventListener("click", () => this.setAll([0, 0, 0]));
     element("own").addEventListener("click", () => {
-      this.follows = false;
+      this.follows = this.others = false;
       this.send();
     });
     slider("strength", (value) => `${value.toFixed(2)} m/s`);
@@ -97,29 +100,48 @@ export class Steering {
     if (this.follows) this.send();
   }
 
-  /** Shows the robots' own command while the page gives none. */
+  /** Whether robots follow another page. */
+  get othersSteer(): boolean {
+    return this.others;
+  }
+
+  /** Gives the command up when another page takes it. */
+  setOthers(others: boolean): void {
+    this.others = others;
+    if (others) this.follows = this.stickUsed = this.stickRested = false;
+  }
+
+  /** Shows the command of the robots or of another page while this page gives none. */
   update(frame: PageFrame | undefined): void {
     if (!this.commands) return;
-    say(element("followed"), this.follows ? "(yours)" : "(the robot's own)");
-    press(element("own"), !this.follows);
+    say(element("followed"), this.follows ? "(yours)" : this.others ? "another page steers" : "(the robot's own)");
+    element("followed").classList.toggle("others", this.others);
+    press(element("own"), !this.follows && !this.others);
     if (this.follows || frame?.command.length !== 3) return;
     for (const [axis, show] of this.sliders.entries()) show((this.command[axis] = frame.command[axis]!));
   }
 
-  /** Reads the sticks of the first gamepad. */
+  /** Reads the sticks of the first gamepad: the left one moves, the right one turns. */
   poll(now_ms: number): void {
     if (!this.commands || now_ms - this.stick_ms < STICK_MS) return;
-    const pad = navigator.getGamepads?.().find((one) => one !== null && one.axes.length >= 3);
-    if (pad == null) return;
     this.stick_ms = now_ms;
-    const sticks = [-pad.axes[1]!, -pad.axes[0]!, -pad.axes[2]!];
-    const used = sticks.some((stick) => Math.abs(stick) > STICK_MIN);
+    const pads = (navigator.getGamepads?.() ?? []).filter((one) => one?.connected && one.axes.length >= 3);
+    const pad = pads.find((one) => one?.mapping === "standard") ?? pads[0];
+    const dead = (stick: number) => Math.sign(stick) * Math.max(0, Math.abs(stick) - STICK_MIN) / (1 - STICK_MIN);
+    // A gamepad that is unplugged while it steers has let go.
+    const sticks = [1, 0, 2].map((axis) => dead(-(pad?.axes[axis] ?? 0)));
+    const used = sticks.some((stick) => stick !== 0);
+    this.stickRested ||= !used && pad !== undefined;
     // A stick that is let go stops the robot once; then keys count again.
-    if (!used && !this.stickUsed) return;
+    if (!this.stickRested || (!used && !this.stickUsed)) return;
     this.stickUsed = used;
     const range = (stick: number, axis: number) => (stick > 0 ? this.high[axis]! : -this.low[axis]!);
-    const next = sticks.map((stick, axis) => (Math.abs(stick) > STICK_MIN ? stick * range(stick, axis) : 0));
+    const next = sticks.map((stick, axis) => this.clamp(axis, stick * range(stick, axis)));
     if (next.some((value, axis) => Math.abs(value - this.command[axis]!) > 0.01)) this.setAll(next);
+  }
+
+  private clamp(axis: number, value: number): number {
+    return Math.max(this.low[axis]!, Math.min(this.high[axis]!, value));
   }
 
   private set(axis: number, value: number): void {
@@ -127,10 +149,9 @@ export class Steering {
   }
 
   private setAll(values: readonly number[]): void {
-    this.follows = true;
+    [this.follows, this.others] = [true, false];
     for (const [axis, show] of this.sliders.entries()) {
-      const value = Math.max(this.low[axis]!, Math.min(this.high[axis]!, values[axis]!));
-      show((this.command[axis] = value));
+      show((this.command[axis] = this.clamp(axis, values[axis]!)));
     }
     this.send();
   }

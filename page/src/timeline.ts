@@ -4,14 +4,25 @@ import type { PageFrame } from "./generated/page_pb";
 const KEPT_S = 60;
 /** Frames further apart than this are not joined: messages in between were lost. */
 const GAP_S = 0.5;
-/** Late enough that the next frame has come, so that there is something to interpolate. */
-const DELAY_S = 0.12;
+/** Pauses between frames are forgotten by this factor at each frame. */
+const PAUSE_KEPT = 0.98;
+/** The picture is so much later than the longest pause, so that the next frame has come and can be interpolated. */
+const DELAY_SHARE = 1.15;
+const DELAY_S_MIN = 0.02;
+const DELAY_S_MAX = 0.25;
 /** Farther from the newest frame, the clock jumps. */
 const JUMP_S = 1;
 const PACE_MAX = 4;
 
-/** A frame with its packed numbers, see PageFrame. */
-export type Moment = { frame: PageFrame; shown_s: number; bodies: Int16Array; contacts: Int16Array };
+/** Units of packed positions and rotations, see PageFrame. */
+export const POSITION_M = 1e-4;
+const ROTATION_RAD = 1e-4;
+/** Numbers of a body in Moment.bodies: position x, y, z from the base (m), and rotation x, y, z, w. */
+export const BODY_NUMBERS = 7;
+const NO_BYTES = new Uint8Array();
+
+/** A frame, whose packed numbers are here instead. */
+export type Moment = { frame: PageFrame; shown_s: number; bodies: Float32Array; contacts: Int16Array };
 
 /** What a robot shows at a time: `mix` 0 is `before`, 1 is `after`. */
 export type Sample = { before: Moment; after: Moment; mix: number };
@@ -19,6 +30,21 @@ export type Sample = { before: Moment; after: Moment; mix: number };
 const clamp = (value: number, low: number, high: number) => Math.max(low, Math.min(high, value));
 // A copy, as bytes of a message may begin at an odd address.
 const unpack = (bytes: Uint8Array) => new Int16Array(bytes.slice(0, bytes.length & ~1).buffer);
+
+/** Makes a quaternion of each rotation vector once, as a frame is drawn many times. */
+function unpackBodies(bytes: Uint8Array): Float32Array {
+  const packed = unpack(bytes);
+  const bodies = new Float32Array(BODY_NUMBERS * Math.floor(packed.length / 6));
+  for (let from = 0, to = 0; to < bodies.length; from += 6, to += BODY_NUMBERS) {
+    const [x, y, z] = [packed[from + 3]!, packed[from + 4]!, packed[from + 5]!];
+    const length = Math.hypot(x, y, z);
+    const half_rad = (length * ROTATION_RAD) / 2;
+    const share = length > 0 ? Math.sin(half_rad) / length : 0;
+    for (let axis = 0; axis < 3; axis += 1) bodies[to + axis] = packed[from + axis]! * POSITION_M;
+    bodies.set([x * share, y * share, z * share, Math.cos(half_rad)], to + 3);
+  }
+  return bodies;
+}
 
 /** Index of the last moment at or before `time_s`; -1 if all moments are later. */
 function find(track: readonly Moment[], time_s: number): number {
@@ -44,6 +70,9 @@ export class Timeline {
   private readonly samples: Sample[] = [];
   /** Simulated seconds for each second of wall time. */
   private pace = 1;
+  /** When the newest frame came, and the longest pause between frames of late (s of wall time). */
+  private arrived_s = 0;
+  private pause_s = 0.1;
 
   /** Forgets all frames, as those of another server. */
   clear(): void {
@@ -60,12 +89,26 @@ export class Timeline {
     if (shown_s === last_s) return;
     // The time falls only when the server was started anew.
     if (shown_s < last_s) this.clear();
+    if (shown_s > this.newest_s) this.arrive(performance.now() / 1000);
     const track = (this.tracks[robot] ??= []);
-    track.push({ frame, shown_s, bodies: unpack(frame.bodies), contacts: unpack(frame.contacts) });
+    track.push({ frame, shown_s, bodies: unpackBodies(frame.bodies), contacts: unpack(frame.contacts) });
+    // They would keep the whole message in memory.
+    frame.bodies = frame.contacts = NO_BYTES;
     // Removed in lumps, as each removal moves the whole array.
     const old = find(track, shown_s - KEPT_S);
     if (old >= 64) track.splice(0, old);
     this.newest_s = Math.max(this.newest_s, shown_s);
+  }
+
+  private arrive(now_s: number): void {
+    const pause_s = Math.min(DELAY_S_MAX, now_s - this.arrived_s);
+    this.pause_s = Math.max(pause_s, PAUSE_KEPT * this.pause_s);
+    this.arrived_s = now_s;
+  }
+
+  /** Time since the server simulated what is shown, on a connection without delay (s). */
+  get age_s(): number {
+    return this.newest_s - this.time_s + performance.now() / 1000 - this.arrived_s;
   }
 
   get oldest_s(): number {
@@ -74,7 +117,7 @@ export class Timeline {
 
   /** Moves the clock by `wall_s` of wall time. */
   advance(wall_s: number): void {
-    const target_s = this.newest_s - DELAY_S;
+    const target_s = this.newest_s - clamp(DELAY_SHARE * this.pause_s, DELAY_S_MIN, DELAY_S_MAX);
     const error_s = target_s - this.time_s;
     if (this.live && Math.abs(error_s) > JUMP_S) this.time_s = target_s;
     else if (this.live) {

@@ -43,8 +43,11 @@ export class Transport {
     });
     element("full").addEventListener("click", () => {
       const { fullscreenElement, documentElement } = document;
-      void (fullscreenElement === null ? documentElement.requestFullscreen() : document.exitFullscreen());
+      const asked = fullscreenElement === null ? documentElement.requestFullscreen() : document.exitFullscreen();
+      // The browser may refuse, as in a frame; the button then shows that nothing changed.
+      asked.catch(() => undefined);
     });
+    document.addEventListener("fullscreenchange", () => press(element("full"), document.fullscreenElement !== null));
     element("full").hidden = !document.fullscreenEnabled;
     this.film.hidden = typeof MediaRecorder === "undefined";
   }

@@ -23,9 +23,13 @@ const FOLLOW_S = 0.12;
 const HEIGHT_FOLLOW_S = 0.6;
 /** Height of a label as part of the picture's. */
 const LABEL = 0.022;
+const LABEL_CHARS_MAX = 26;
 
 /** Text that always faces the camera, of a size that does not depend on the distance. */
-function label(text: string): THREE.Sprite {
+function label(name: string): THREE.Sprite {
+  // Runs that are compared differ at either end of their names.
+  const half = LABEL_CHARS_MAX / 2;
+  const text = name.length > LABEL_CHARS_MAX ? `${name.slice(0, half)}…${name.slice(-half)}` : name;
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d")!;
   const font = "600 44px system-ui, sans-serif";
@@ -92,7 +96,7 @@ export class View {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(width, height, false);
-    const free = Math.max(0.3 * height, height - top - bottom);
+    const free = Math.max(0.15 * height, height - top - bottom);
     this.aspect = Math.max(0.2 * width, width - left - right) / free;
     this.camera.aspect = width / height;
     this.camera.zoom = free / height;
@@ -110,6 +114,7 @@ export class View {
   }
 
   setGround(ground: PageMesh | undefined): void {
+    this.arrows.isFlat = ground === undefined;
     this.surroundings.setGround(ground, this.robots);
   }
 
@@ -138,9 +143,28 @@ export class View {
     this.arrows.draw(this.robots, timeline);
     this.follow(wall_s);
     this.controls.update();
+    this.stagger();
     this.surroundings.follow(this.middle, this.camera.position, this.robots);
     this.adapt(wall_s);
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Moves labels so that none is cut off at a side or lies on another. */
+  private stagger(): void {
+    this.camera.updateMatrixWorld();
+    const scale = this.camera.projectionMatrix.elements;
+    const placed: { x: number; y: number; half: number }[] = [];
+    for (const sprite of this.labels) {
+      const { x, y } = this.shift.copy(sprite.position).project(this.camera);
+      const [half, high] = [0.5 * sprite.scale.x * scale[0]!, sprite.scale.y * scale[5]!];
+      const put = { x: Math.max(half - 1, Math.min(1 - half, x)), y, half };
+      const near = placed.filter((other) => Math.abs(other.x - put.x) < other.half + half);
+      for (const other of near.sort((a, b) => a.y - b.y)) {
+        if (Math.abs(other.y - put.y) < high) put.y = other.y + 1.1 * high;
+      }
+      placed.push(put);
+      sprite.center.set(0.5 - (put.x - x) / (2 * half), (y - put.y) / high);
+    }
   }
 
   private follow(wall_s: number): void {

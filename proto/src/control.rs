@@ -9,7 +9,7 @@ use crate::{
     wire,
 };
 
-pub use wire::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
+pub use wire::{ActorStatus, Command, ControlReply, ControlRequest, PartTime, Phase, RunStatus};
 
 impl ControlRequest {
     /// Returns a request without arguments.

@@ -80,7 +80,7 @@ mod wire_tensorboard {
 
 pub use actor_state::ActorState;
 pub use bundle::{PolicyAnnouncement, PolicyBundle};
-pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
+pub use control::{ActorStatus, Command, ControlReply, ControlRequest, PartTime, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use policy_pieces::{PolicyPiece, PolicyRequest};

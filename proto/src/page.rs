@@ -10,9 +10,9 @@ use crate::{Malformed, check_size, planes::check_finite};
 
 /// Longest message of a page, in bytes.
 pub const FROM_PAGE_BYTES_MAX: usize = 256;
-/// Position units of [`PageFrame::bodies`] per metre, and of rotations.
+/// Units of [`PageFrame::bodies`] per metre and per radian: π is within an int16.
 const POSITION_UNITS_PER_M: f32 = 10_000.0;
-const ROTATION_UNITS: f32 = 32_767.0;
+const ROTATION_UNITS_PER_RAD: f32 = 10_000.0;
 /// Force units of [`PageFrame::contacts`] per newton.
 const FORCE_UNITS_PER_N: f32 = 10.0;
 
@@ -47,7 +47,7 @@ impl FromPage {
 pub fn append_body(bodies: &mut Vec<u8>, base_m: [f32; 3], pose: &[f32; 7]) {
     let (position_m, rotation) = pose.split_at(3);
     append_point(bodies, base_m, position_m);
-    append(bodies, rotation.iter().map(|part| part * ROTATION_UNITS));
+    append(bodies, rotation_vector(rotation).into_iter().map(|part| part * ROTATION_UNITS_PER_RAD));
 }
 
 /// Appends a contact as [`PageFrame::contacts`] has it: position x, y, z (m) and force x, y, z (N).
@@ -55,6 +55,16 @@ pub fn append_contact(contacts: &mut Vec<u8>, base_m: [f32; 3], contact: &[f32; 
     let (position_m, force_n) = contact.split_at(3);
     append_point(contacts, base_m, position_m);
     append(contacts, force_n.iter().map(|part| part * FORCE_UNITS_PER_N));
+}
+
+/// Returns axis times angle (rad) of a unit quaternion w, x, y, z, by the shorter way.
+fn rotation_vector(rotation: &[f32]) -> [f32; 3] {
+    let &[w, x, y, z] = rotation else { unreachable!("a pose has seven numbers") };
+    let sine = (x * x + y * y + z * z).sqrt();
+    let angle_rad = 2.0 * sine.atan2(w.abs());
+    // For small angles the axis is not known well, but its product with the angle is.
+    let scale = if sine > 1e-6 { angle_rad / sine } else { 2.0 } * w.signum();
+    [x * scale, y * scale, z * scale]
 }
 
 fn append_point(to: &mut Vec<u8>, base_m: [f32; 3], position_m: &[f32]) {
@@ -73,12 +83,20 @@ mod tests {
     #[test]
     fn poses_and_contacts_are_rounded_and_saturate() {
         let (mut bodies, mut contacts) = (Vec::new(), Vec::new());
-        append_body(&mut bodies, [100.0, 0.0, 0.8], &[100.5, -0.25, 0.8, 1.0, 0.0, -1.0, 0.5]);
+        // A quarter turn about −y, as a quaternion with either sign, and a half turn about x.
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        for rotation in [[half, 0.0, -half, 0.0], [-half, 0.0, half, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 5e-4]]
+        {
+            let [w, x, y, z] = rotation;
+            append_body(&mut bodies, [100.0, 0.0, 0.8], &[100.5, -0.25, 0.8, w, x, y, z]);
+        }
         append_contact(&mut contacts, [100.0, 0.0, 0.8], &[100.0, 9.0, 0.0, 1.04, -0.06, 1e9]);
         let numbers = |bytes: &[u8]| -> Vec<i16> {
             bytes.as_chunks::<2>().0.iter().map(|pair| i16::from_le_bytes(*pair)).collect()
         };
-        assert_eq!(numbers(&bodies), [5000, -2500, 0, 32_767, 0, -32_767, 16_384]);
+        let quarter = [0, -15_708, 0];
+        let rotations = [quarter, quarter, [31_416, 0, 0], [0, 0, 10]];
+        assert_eq!(numbers(&bodies), rotations.map(|[x, y, z]| [5000, -2500, 0, x, y, z]).concat());
         assert_eq!(numbers(&contacts), [0, i16::MAX, -8000, 10, -1, i16::MAX]);
     }
 

@@ -10,8 +10,8 @@ pub use wire::Pose;
 pub const BODY_NUMBERS: usize = 7;
 /// Numbers of one contact in [`Pose::contacts`]: a position and a force.
 pub const CONTACT_NUMBERS: usize = 6;
-/// Numbers of [`Pose::command`] and [`Pose::base_velocity`], if there are any.
-pub const COMMAND_NUMBERS: usize = 3;
+/// Numbers of [`Pose::command`], [`Pose::base_velocity`] and [`Pose::centre_of_mass_m`], if there are any.
+pub const VECTOR_NUMBERS: usize = 3;
 /// Longest episode (s), more than eleven days.
 const TIME_MAX_S: f64 = 1e6;
 /// Tolerance of a quaternion's length, larger than any rounding error.
@@ -45,9 +45,14 @@ impl Pose {
             let expected = format!("{CONTACT_NUMBERS} numbers for each contact");
             return Err(Malformed::length("contacts", self.contacts.len(), expected));
         }
-        for (field, numbers) in [("command", &self.command), ("base_velocity", &self.base_velocity)] {
-            if !numbers.is_empty() && numbers.len() != COMMAND_NUMBERS {
-                return Err(Malformed::length(field, numbers.len(), format!("none or {COMMAND_NUMBERS}")));
+        let vectors = [
+            ("command", &self.command),
+            ("base_velocity", &self.base_velocity),
+            ("centre_of_mass_m", &self.centre_of_mass_m),
+        ];
+        for (field, numbers) in vectors {
+            if !numbers.is_empty() && numbers.len() != VECTOR_NUMBERS {
+                return Err(Malformed::length(field, numbers.len(), format!("none or {VECTOR_NUMBERS}")));
             }
             check_finite(field, numbers)?;
         }
@@ -63,6 +68,7 @@ impl Pose {
         check_finite("bodies", &self.bodies)?;
         check_finite("contacts", &self.contacts)?;
         check_finite("joint_torques_nm", &self.joint_torques_nm)?;
+        check_finite("joint_angles_rad", &self.joint_angles_rad)?;
         if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
             return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
         }
@@ -96,6 +102,8 @@ mod tests {
             velocity_mps: 1.5,
             command: vec![0.5, 0.0, -0.2],
             base_velocity: vec![0.4, 0.1, -0.1],
+            joint_angles_rad: vec![0.3],
+            centre_of_mass_m: vec![1.0, 2.0, 1.0],
             ..Pose::default()
         }
     }
@@ -109,7 +117,7 @@ mod tests {
     #[test]
     fn encoding_and_decoding_name_the_bad_field() {
         type Corrupt = fn(&mut Pose);
-        let cases: [(&str, Corrupt); 15] = [
+        let cases: [(&str, Corrupt); 17] = [
             ("run", |pose| pose.run = "a/b".into()),
             ("actor", |pose| pose.actor.clear()),
             ("version", |pose| pose.version = None),
@@ -123,6 +131,8 @@ mod tests {
             ("reward_ctrl", |pose| pose.reward_ctrl = f32::NEG_INFINITY),
             ("`command` is 2 numbers", |pose| pose.command.truncate(2)),
             ("`base_velocity` holds NaN at index 1", |pose| pose.base_velocity[1] = f32::NAN),
+            ("`joint_angles_rad` holds NaN at index 0", |pose| pose.joint_angles_rad[0] = f32::NAN),
+            ("`centre_of_mass_m` is 4 numbers", |pose| pose.centre_of_mass_m.push(0.0)),
             ("time_s", |pose| pose.time_s = -1.0),
             ("pose has", |pose| pose.joint_torques_nm = vec![0.0; POSE_BYTES_MAX / 4]),
         ];

@@ -11,20 +11,26 @@ use treadmill_runtime::{run_folder::RunFolder, shutdown::Shutdown};
 use crate::{
     launch::{async_runtime, exit_code::Usage, output::say, signals},
     page::{
+        OpenPage, Served,
         flags::ServeArgs,
+        fleet::LocalRun,
         live::Live,
         player::Player,
+        recorded::Recorded,
         show::{POLICIES_MAX, Show, short},
     },
     shared::{learner_address::ReachArgs, model_file::ModelFileArgs},
 };
+
+/// Most runs whose curves a page shows.
+const RUNS_MAX: usize = 32;
 
 /// Flags of `watch`.
 #[derive(Args, Clone, Debug)]
 pub struct WatchArgs {
     #[command(flatten)]
     reach: ReachArgs,
-    /// Further policies, which move beside the first one under the same commands.
+    /// Further policies, which move beside the first one under the same commands; of more than four, only the curves are shown.
     #[arg(value_name = "RUN", conflicts_with_all = ["live", "connect"])]
     more: Vec<String>,
     /// Watch an actor of a run while it trains. RUN is its folder on this machine; on other machines pass --connect.
@@ -36,6 +42,9 @@ pub struct WatchArgs {
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH", conflicts_with = "live")]
     checkpoint: Option<CheckpointChoice>,
+    /// Play the steps that `eval --trace` wrote to this file, on the robot of RUN.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["live", "connect", "more", "checkpoint", "steer", "seed"])]
+    trace: Option<PathBuf>,
     /// Seed of the resets, as for `eval`.
     #[arg(long, default_value_t = 1, conflicts_with = "live")]
     seed: u64,
@@ -55,7 +64,7 @@ pub const RUN_HELP: &str = "\
 
 /// Serves the page until Ctrl-C.
 pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
-    let WatchArgs { reach, more, live, actor, checkpoint, seed, model, model_file, serve } = args;
+    let WatchArgs { reach, more, live, actor, checkpoint, trace, seed, model, model_file, serve } = args;
     let visuals =
         model.as_deref().map(|file| visual_meshes(file, &model_file.files())).transpose()?.unwrap_or_default();
     let (shutdown, tls) = (Shutdown::default(), reach.network.tls.as_deref());
@@ -69,28 +78,50 @@ pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         return Err(Usage(why.to_string()).into());
     };
     let runs: Vec<String> = std::iter::once(first).chain(more.iter().cloned()).collect();
-    if runs.len() > POLICIES_MAX {
-        return Err(Usage(format!("{} policies are too many to watch; name at most {POLICIES_MAX}", runs.len())).into());
+    if runs.len() > RUNS_MAX {
+        return Err(Usage(format!("{} runs are too many to watch; name at most {RUNS_MAX}", runs.len())).into());
+    }
+    let (mut named, played) = (runs.clone(), &runs[..runs.len().min(POLICIES_MAX)]);
+    if played.len() < runs.len() {
+        say(&format!("the first {POLICIES_MAX} policies move; of the other runs the page shows the curves"));
+    }
+    if let Some(trace) = trace {
+        let recorded = Recorded::open(tasks, &runs[0], trace, visuals)?;
+        return serve_until_stop(serve.open(tls)?, &shutdown, |page| page.replay(recorded, &shutdown));
     }
     // A policy that cannot be played is an error now, not a notice on the page.
-    for run in &runs {
+    for run in played {
         let player = Player::load(tasks, run, *checkpoint, *seed)?;
         if serve.steer && player.command().is_none() {
             say(&format!("`{run}` has no commands: --steer only pushes it and changes its world"));
         }
     }
-    let mut named = runs.clone();
     named.sort();
     named.dedup();
-    let folders = named.iter().filter_map(|run| Some((RunFolder::open(run).ok()?, run)));
-    let logs = folders.map(|(folder, run)| (folder.metrics(), run.clone())).collect();
-    let title = runs.iter().map(|run| short(run)).collect::<Vec<_>>().join(", ");
+    // The last part of a path is the run's name on the bus; equal ones are distinguished by their paths.
+    let is_alone = |run: &str| named.iter().filter(|other| short(other) == short(run)).count() == 1;
+    let name = |run: &str| if is_alone(run) { short(run).to_string() } else { run.to_string() };
+    let logs = named.iter().filter_map(|run| Some((RunFolder::open(run).ok()?, name(run)))).collect();
+    let local: Vec<_> = named.iter().filter_map(|run| LocalRun::new(reach, run)).collect();
+    let title = played.iter().map(|run| short(run)).collect::<Vec<_>>().join(", ");
+    let runs = played.to_vec();
     let show = Show { title, runs, which: *checkpoint, seed: *seed, visuals, logs, tasks: tasks.clone() };
-    let served = serve.open(tls)?;
+    serve_until_stop(serve.open(tls)?, &shutdown, |page| {
+        local.into_iter().try_for_each(|run| run.follow(page.hub.clone(), shutdown.clone()))?;
+        page.play(show, &shutdown)
+    })
+}
+
+/// Serves a page until Ctrl-C, with what `begin` shows on it.
+fn serve_until_stop(
+    served: Served,
+    shutdown: &Shutdown,
+    begin: impl FnOnce(OpenPage) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
     async_runtime::run(async {
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let link = served.link.clone();
-        served.serve(&shutdown)?.play(show, &shutdown)?;
+        begin(served.serve(shutdown)?)?;
         say(&format!("watch at {link}"));
         shutdown.wait().await;
         Ok(())

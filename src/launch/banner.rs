@@ -227,12 +227,12 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
     let place = store.map_or_else(|| format!("{run}/checkpoints"), str::to_string);
     say(&format!("{what} after {} env steps; saved in {place}", thousands(steps)));
     if let Some(means) = summary.state.episodes.means() {
-        let (end, farthest_m) = (means.length_mean, summary.history.farthest_m());
-        let farthest = farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
+        let (end, best_m) = (means.length_mean, summary.history.best_m());
+        let best = best_m.map(|m| format!("; best {m:.1} m")).unwrap_or_default();
         let (moved, best) = match summary.history.tracking_errors {
             Some([velocity, yaw]) => (format!("errors of {velocity:.2} m/s and {yaw:.2} rad/s"), String::new()),
             None if summary.history.has_commands => ("no evaluation yet".to_string(), String::new()),
-            None => (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), farthest),
+            None => (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), best),
         };
         say(&format!(
             "reached: return {:.0}, {moved}, {end:.0} steps until the end of an episode{best}",

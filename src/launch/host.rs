@@ -16,14 +16,14 @@ use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::{
     checkpoint::{CheckpointChoice, EpisodeMeans, TrainingState},
     leadership::Leadership,
-    metrics::{ConsoleOptions, PrometheusMetrics, ReportOptions},
+    metrics::{ConsoleOptions, FilmSlot, PrometheusMetrics, ReportOptions},
     training::{self, TrainingError, TrainingOptions, TrainingSummary},
     waiting::Heartbeat,
 };
 use treadmill_runtime::{atomic_file, run_folder::RunFolder, run_lock::RunLock, shutdown::Shutdown};
 
 use super::{
-    async_runtime, banner, external_task, memory,
+    async_runtime, banner, external_task, films, memory,
     metrics_page::MetricsListener,
     model,
     output::say,
@@ -38,7 +38,7 @@ use super::{
 };
 
 use crate::{
-    page::{OpenPage, Served, show::Show},
+    page::{OpenPage, Served, fleet, show::Show},
     shared::learner_address::on_this_machine,
 };
 
@@ -130,6 +130,9 @@ pub struct Host<'a> {
     serving: Mutex<Option<OpenPage>>,
     /// Name of the run on the metrics page.
     run: Arc<OnceLock<String>>,
+    /// Films of the robot for TensorBoard.
+    films: FilmSlot,
+    filming: OnceLock<()>,
 }
 
 impl<'a> Host<'a> {
@@ -150,7 +153,21 @@ impl<'a> Host<'a> {
             hub.notice("no run yet: this process waits to lead one");
         }
         let serving = serving.into();
-        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, watch, serving, run })
+        let films = FilmSlot::default();
+        Ok(Self {
+            options,
+            bus,
+            endpoints,
+            shutdown,
+            prometheus,
+            heartbeat,
+            page,
+            watch,
+            serving,
+            run,
+            films,
+            filming: OnceLock::new(),
+        })
     }
 
     /// Waits for this time, or until this process is to stop.
@@ -187,7 +204,7 @@ impl<'a> Host<'a> {
             which: Some(CheckpointChoice::Latest),
             seed: setup.config.run.seed,
             visuals: Vec::new(),
-            logs: vec![(folder.metrics(), run.clone())],
+            logs: vec![(folder.clone(), run.clone())],
             tasks: self.options.tasks.clone(),
         }
     }
@@ -215,9 +232,15 @@ impl<'a> Host<'a> {
         let serving = self.serving.lock().expect("no holder of this lock panics").take();
         if let Some(serving) = serving {
             serving.hub.notice("");
+            let run = Some(prepared.setup.run.clone());
+            tokio::spawn(fleet::follow(self.bus.clone(), run, serving.hub.clone(), self.shutdown.clone(), |_| true));
             serving.play(self.show(&prepared.setup), &self.shutdown)?;
         }
         let pages = banner::Pages { metrics: self.page, watch: self.watch.as_ref().map(|(link, _)| link.clone()) };
+        // Films go with evaluations: they are for runs that last. One that leads again has its thread already.
+        if prepared.setup.config.evaluates() && self.filming.set(()).is_ok() {
+            films::make(folder.clone(), self.films.clone(), self.shutdown.clone())?;
+        }
         banner::print_start(&prepared, &self.endpoints, credentials, actors, &pages);
         banner::print_lost_endpoints(&before, &self.endpoints, actors.is_none());
         // Stays open during training, because actors that join later register their task too.
@@ -275,6 +298,7 @@ impl<'a> Host<'a> {
                 prometheus: self.prometheus.clone(),
                 command: startup::command_line(),
                 versions: startup::versions(&config),
+                films: self.films.clone(),
             },
             restarts,
             heartbeat: self.heartbeat.clone(),

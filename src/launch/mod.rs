@@ -5,7 +5,7 @@
 //!   new run), `warm_start` (from another run's policy or state), `resumption` (loads a saved run and compares the
 //!   flags with it), `model` (the robot), `automatic` (settings that follow from its size), `external_task` (waits for
 //!   the task that the first actor registers), `banner` (text printed before and after a run).
-//! - During a run: `host` (a learner with actors beside it), `durability` (the same with its state in a store), `standby`
+//! - During a run: `host` (a learner with actors beside it), `films` (of the newest policy), `durability` (the same with its state in a store), `standby`
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over
 //!   HTTP).
@@ -23,6 +23,7 @@ pub(crate) mod durability;
 pub mod exit_code;
 pub(crate) mod external_task;
 pub(crate) mod familiar_flags;
+mod films;
 pub(crate) mod host;
 pub mod link_page;
 pub mod log;

@@ -3,15 +3,16 @@
 use std::{
     collections::BTreeMap,
     fs::File,
+    hash::{DefaultHasher, Hash, Hasher},
     io::{BufRead, BufReader, Seek, SeekFrom},
     os::unix::fs::MetadataExt,
-    path::PathBuf,
 };
 
 use treadmill_proto::{
     json::Metric,
     page::{PageCurve, PageCurves},
 };
+use treadmill_runtime::run_folder::RunFolder;
 
 /// Most points of a curve that a page receives when it opens.
 const POINTS_MAX: usize = 1000;
@@ -34,12 +35,13 @@ struct Thinned {
 impl CurveStore {
     /// Adds points. Where a curve has too many, every second one is dropped.
     pub fn add(&mut self, points: &PageCurves) {
-        for PageCurve { run, tag, steps, wall_s, values } in &points.curves {
+        for PageCurve { run, group, tag, steps, wall_s, values } in &points.curves {
             let key = (run.clone(), tag.clone());
             if !self.curves.contains_key(&key) && self.curves.len() >= CURVES_MAX {
                 continue;
             }
-            let new = || PageCurve { run: run.clone(), tag: tag.clone(), ..PageCurve::default() };
+            let names = [run, group, tag].map(Clone::clone);
+            let new = || empty(names);
             let thinned = self.curves.entry(key).or_insert_with(|| Thinned { curve: new(), stride: 1, seen: 0 });
             for ((step, wall_s), value) in steps.iter().zip(wall_s).zip(values) {
                 thinned.add(*step, *wall_s, *value);
@@ -89,10 +91,15 @@ impl Thinned {
     }
 }
 
-/// RunLog of a run's metrics that is read as it grows.
+fn empty([run, group, tag]: [String; 3]) -> PageCurve {
+    PageCurve { run, group, tag, ..PageCurve::default() }
+}
+
+/// Log of a run's metrics that is read as it grows.
 pub struct RunLog {
-    file: PathBuf,
+    folder: RunFolder,
     run: String,
+    group: String,
     /// Number of the file: a resume that cuts the log replaces it.
     inode: u64,
     read_bytes: u64,
@@ -102,8 +109,8 @@ pub struct RunLog {
 impl RunLog {
     /// Creates the log of a run, which is read from its beginning.
     #[must_use]
-    pub fn new(file: PathBuf, run: String) -> Self {
-        Self { file, run, inode: 0, read_bytes: 0, begun_unix_s: None }
+    pub fn new(folder: RunFolder, run: String) -> Self {
+        Self { folder, run, group: String::new(), inode: 0, read_bytes: 0, begun_unix_s: None }
     }
 
     /// Returns its run.
@@ -115,7 +122,7 @@ impl RunLog {
     /// log. A missing file and a half line have none.
     pub fn new_points(&mut self) -> (PageCurves, bool) {
         let mut curves: BTreeMap<String, PageCurve> = BTreeMap::new();
-        let opened = File::open(&self.file).and_then(|file| Ok((file.metadata()?, file)));
+        let opened = File::open(self.folder.metrics()).and_then(|file| Ok((file.metadata()?, file)));
         let Ok((found, mut file)) = opened else { return (PageCurves::default(), false) };
         let length = found.len();
         if found.ino() != self.inode || length < self.read_bytes {
@@ -125,12 +132,15 @@ impl RunLog {
         if length == self.read_bytes || file.seek(SeekFrom::Start(self.read_bytes)).is_err() {
             return (PageCurves::default(), false);
         }
+        if is_anew {
+            self.group = group(&self.folder).unwrap_or_default();
+        }
         let (mut reader, mut line) = (BufReader::new(file), Vec::new());
         while reader.read_until(b'\n', &mut line).is_ok_and(|bytes| bytes > 0) && line.ends_with(b"\n") {
             self.read_bytes += line.len() as u64;
             if let Ok(Metric { tag, step, value, time_unix_s, .. }) = serde_json::from_slice(&line) {
                 let begun_unix_s = *self.begun_unix_s.get_or_insert(time_unix_s);
-                let new = || PageCurve { run: self.run.clone(), tag: tag.clone(), ..PageCurve::default() };
+                let new = || empty([self.run.clone(), self.group.clone(), tag.clone()]);
                 let curve = curves.entry(tag.clone()).or_insert_with(new);
                 curve.steps.push(step as f64);
                 curve.wall_s.push(time_unix_s - begun_unix_s);
@@ -142,6 +152,16 @@ impl RunLog {
     }
 }
 
+/// Returns a text that is equal for runs of the same robot whose configurations differ in `[run]` alone, as in the seed;
+/// `None` without a readable configuration.
+fn group(folder: &RunFolder) -> Option<String> {
+    let mut config: toml::Table = std::fs::read_to_string(folder.config()).ok()?.parse().ok()?;
+    config.remove("run");
+    let mut hasher = DefaultHasher::new();
+    (config.to_string(), std::fs::read(folder.root().join("model.xml")).ok()).hash(&mut hasher);
+    Some(format!("{:016x}", hasher.finish()))
+}
+
 #[cfg(test)]
 mod tests {
     use std::{fs::OpenOptions, io::Write};
@@ -151,7 +171,7 @@ mod tests {
     fn curve(tag: &str, steps: impl Iterator<Item = u32>) -> PageCurve {
         let steps: Vec<f64> = steps.map(f64::from).collect();
         let values = steps.iter().map(|step| 2.0 * step).collect();
-        PageCurve { run: "walk".into(), tag: tag.into(), wall_s: steps.clone(), values, steps }
+        PageCurve { wall_s: steps.clone(), values, steps, ..empty(["walk", "", tag].map(String::from)) }
     }
 
     #[test]
@@ -181,8 +201,9 @@ mod tests {
     #[test]
     fn a_log_is_read_as_it_grows_and_anew_after_it_was_cut() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let mut log = RunLog::new(path.clone(), "walk".into());
+        let run = RunFolder::create(Some(&folder.path().join("run")), "walk").unwrap();
+        let path = run.metrics();
+        let mut log = RunLog::new(run, "walk".into());
         let mut new_steps = |is_anew: bool| -> Vec<f64> {
             let (points, found) = log.new_points();
             assert_eq!(found, is_anew && !points.curves.is_empty(), "{points:?}");
@@ -202,6 +223,23 @@ mod tests {
         std::fs::write(path.with_extension("new"), lines.join("\n") + "\n").unwrap();
         std::fs::rename(path.with_extension("new"), &path).unwrap();
         assert_eq!(new_steps(true), [1.0, 2.0, 30.0, 31.0, 32.0]);
+    }
+
+    #[test]
+    fn runs_that_differ_in_their_seed_alone_are_of_one_group() {
+        let folder = tempfile::tempdir().unwrap();
+        let group_of = |name: &str, config: &str| {
+            let run = RunFolder::create(Some(&folder.path().join(name)), "walk").unwrap();
+            std::fs::write(run.config(), config).unwrap();
+            std::fs::write(run.metrics(), "{\"run\":\"a\",\"tag\":\"b\",\"step\":1,\"value\":1,\"time_unix_s\":1}\n")
+                .unwrap();
+            RunLog::new(run, name.into()).new_points().0.curves[0].group.clone()
+        };
+        let first = group_of("first", "[run]\nseed = 1\n[ppo]\ngamma = 0.98\n");
+        assert!(!first.is_empty());
+        assert_eq!(first, group_of("second", "[run]\nseed = 2\n[ppo]\ngamma = 0.98\n"));
+        assert_ne!(first, group_of("third", "[run]\nseed = 1\n[ppo]\ngamma = 0.99\n"));
+        assert_eq!(group_of("fourth", "no configuration"), "");
     }
 
     #[test]

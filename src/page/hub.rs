@@ -3,6 +3,7 @@
 use std::{
     sync::{
         Arc, Condvar, Mutex, MutexGuard,
+        atomic::{AtomicU64, Ordering},
         mpsc::{Receiver, SyncSender, sync_channel},
     },
     time::Duration,
@@ -10,7 +11,10 @@ use std::{
 
 use bytes::Bytes;
 use tokio::sync::{broadcast, watch};
-use treadmill_proto::page::{FromPageKind, PageCurves, PageFrame, PageScene, ToPageKind};
+use treadmill_proto::{
+    RunStatus,
+    page::{FromPageKind, PageCommand, PageCurves, PageFrame, PageScene, ToPageKind},
+};
 
 use super::curves::CurveStore;
 
@@ -22,6 +26,8 @@ const FRAMES_MAX: usize = 64;
 const NEWS_MAX: usize = 256;
 /// Requests of pages that wait; further ones are dropped.
 const ASKED_MAX: usize = 64;
+/// Most actors of a status.
+const ACTORS_MAX: usize = 256;
 
 /// Shared by the connections of all pages and by what is shown.
 #[derive(Clone)]
@@ -41,10 +47,17 @@ struct Shared {
     /// Counts how often curves were replaced.
     generation: watch::Sender<u64>,
     steers: bool,
+    /// Numbers of the pages that were opened.
+    opened: AtomicU64,
+    /// Number of the page whose command the robots follow; 0 without any.
+    steerer: watch::Sender<u64>,
 }
 
 /// Place of an open page, which is free again when it is dropped.
-pub struct Seat(Hub);
+pub struct Seat {
+    hub: Hub,
+    number: u64,
+}
 
 /// What a page that opens receives.
 pub struct PageView {
@@ -60,6 +73,8 @@ pub struct PageView {
     pub notice: Bytes,
     /// Changes when curves are replaced.
     pub generation: watch::Receiver<u64>,
+    /// Number of the page whose command the robots follow, see [`Seat::number`]; 0 without any.
+    pub steerer: watch::Receiver<u64>,
 }
 
 impl Hub {
@@ -77,6 +92,8 @@ impl Hub {
             notice: Mutex::default(),
             generation: watch::Sender::new(0),
             steers,
+            opened: AtomicU64::new(0),
+            steerer: watch::Sender::new(0),
         };
         (Self { shared: Arc::new(shared), asked }, requests)
     }
@@ -96,7 +113,8 @@ impl Hub {
         }
         *pages += 1;
         self.shared.pages_changed.notify_all();
-        Some(Seat(self.clone()))
+        let number = 1 + self.shared.opened.fetch_add(1, Ordering::Relaxed);
+        Some(Seat { hub: self.clone(), number })
     }
 
     /// Returns what a page that opens receives. No point of a curve is lost or comes twice.
@@ -110,13 +128,7 @@ impl Hub {
             curves: ToPageKind::Curves(curves.whole()).to_bytes().into(),
             notice: self.notices().clone(),
             generation: self.shared.generation.subscribe(),
-        }
-    }
-
-    /// Passes on a request of a page; drops it if too many wait.
-    pub fn ask(&self, request: FromPageKind) {
-        if self.steers() {
-            let _ = self.asked.try_send(request);
+            steerer: self.shared.steerer.subscribe(),
         }
     }
 
@@ -142,6 +154,12 @@ impl Hub {
     pub fn show_frame(&self, frame: PageFrame) {
         // Without pages there is no receiver.
         let _ = self.shared.frames.send(ToPageKind::Frame(frame).to_bytes().into());
+    }
+
+    /// Shows how a run is.
+    pub fn show_status(&self, mut status: RunStatus) {
+        status.actors.truncate(ACTORS_MAX);
+        let _ = self.shared.news.send(ToPageKind::Status(status).to_bytes().into());
     }
 
     /// Shows a line of text.
@@ -181,9 +199,39 @@ impl Hub {
     }
 }
 
+impl Seat {
+    /// Number of the page, from 1.
+    #[must_use]
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// Passes on a request of the page; drops it if too many wait.
+    pub fn ask(&self, request: FromPageKind) {
+        let Hub { shared, asked } = &self.hub;
+        if !shared.steers {
+            return;
+        }
+        let commands = match &request {
+            FromPageKind::Command(command) => Some(command.follows),
+            FromPageKind::Push(_) | FromPageKind::World(_) => None,
+        };
+        if asked.try_send(request).is_ok()
+            && let Some(follows) = commands
+        {
+            let steerer = if follows { self.number } else { 0 };
+            shared.steerer.send_if_modified(|known| std::mem::replace(known, steerer) != steerer);
+        }
+    }
+}
+
 impl Drop for Seat {
     fn drop(&mut self) {
-        *self.0.pages() -= 1;
-        self.0.shared.pages_changed.notify_all();
+        // Its command ends with it, also while other pages are open.
+        if *self.hub.shared.steerer.borrow() == self.number {
+            self.ask(FromPageKind::Command(PageCommand::default()));
+        }
+        *self.hub.pages() -= 1;
+        self.hub.shared.pages_changed.notify_all();
     }
 }

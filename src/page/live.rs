@@ -14,7 +14,7 @@ use treadmill_humanoid::{Model, mjcf::VisualMesh};
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident, page::PageScene};
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use super::{OpenPage, Served, hub::Hub, player::frame_of, scene};
+use super::{OpenPage, Served, fleet, hub::Hub, player::frame_of, scene};
 use crate::{
     launch::{exit_code::Usage, output::say, signals},
     shared::learner_address::{self, LearnerLink, ReachArgs},
@@ -66,6 +66,8 @@ impl Live<'_> {
                 ground: scene::ground(&model),
                 ..PageScene::default()
             });
+            let run = Some(bundle.run.clone());
+            tokio::spawn(fleet::follow(link.bus.clone(), run, hub.clone(), shutdown.clone(), |_| true));
             tokio::task::block_in_place(|| self.show(link, &bundle, &hub, shutdown, is_gymnasiums))
         })
     }
@@ -124,7 +126,8 @@ impl Shown {
         let mut frame = frame_of(pose);
         (frame.episode, frame.shown_s) = (self.episode, self.at_s);
         if !is_gymnasiums {
-            frame.rewards = vec![pose.reward_forward];
+            frame.rewards_e4.truncate(2);
+            frame.rewards_e4.remove(0);
         }
         hub.show_frame(frame);
     }

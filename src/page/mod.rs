@@ -10,16 +10,20 @@
 //! - [`server`]: HTTP and WebSockets.
 //! - [`show`]: policies that are played for the page.
 //! - [`player`]: one policy and its environment.
+//! - [`recorded`]: steps of an evaluation's trace.
 //! - [`live`]: poses of a training actor, from the bus.
+//! - [`fleet`]: how runs are, asked of their learners.
 //! - [`scene`]: meshes of robots and ground.
 //! - [`curves`]: metrics of runs, from their logs.
 
 pub mod curves;
 pub mod doors;
 pub mod flags;
+pub mod fleet;
 pub mod hub;
 pub mod live;
 pub mod player;
+pub mod recorded;
 pub mod scene;
 pub mod server;
 pub mod show;
@@ -34,7 +38,11 @@ use anyhow::Context;
 use treadmill_proto::page::FromPageKind;
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use self::{doors::Door, hub::Hub, show::Show};
+use self::{doors::Door, hub::Hub, recorded::Recorded, show::Show};
+
+/// Niceness of the thread that shows something.
+#[cfg(target_os = "linux")]
+const NICENESS: i32 = 10;
 
 /// Socket of the page, before it is served.
 pub struct Served {
@@ -81,8 +89,30 @@ impl OpenPage {
     /// If the thread cannot be started.
     pub fn play(self, show: Show, shutdown: &Shutdown) -> anyhow::Result<()> {
         let (Self { hub, requests }, shutdown) = (self, shutdown.clone());
-        let play = move || show.run(&hub, &requests, &shutdown);
-        thread::Builder::new().name("show".to_string()).spawn(play).context("no thread for the page")?;
-        Ok(())
+        begin(move || show.run(&hub, &requests, &shutdown))
     }
+
+    /// Plays a trace in a thread of its own until the stop.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn replay(self, recorded: Recorded, shutdown: &Shutdown) -> anyhow::Result<()> {
+        let (hub, shutdown) = (self.hub, shutdown.clone());
+        begin(move || recorded.run(&hub, &shutdown))
+    }
+}
+
+/// Begins the thread that shows something. Threads of training go first.
+fn begin(show: impl FnOnce() + Send + 'static) -> anyhow::Result<()> {
+    let show = move || {
+        // On other systems than Linux, this would slow the whole process.
+        #[cfg(target_os = "linux")]
+        // SAFETY: the call has no preconditions. On Linux it acts on the calling thread alone.
+        unsafe {
+            libc::nice(NICENESS);
+        }
+        show();
+    };
+    thread::Builder::new().name("show".to_string()).spawn(show).context("no thread for the page")?;
+    Ok(())
 }

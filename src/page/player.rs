@@ -17,13 +17,22 @@ use treadmill_proto::{
 };
 use treadmill_runtime::{run_folder::RunFolder, seeds};
 
-use crate::shared::saved_policy::{self, Origin, SavedPolicy};
+use crate::shared::{
+    saved_policy::{self, Origin, SavedPolicy},
+    saved_run,
+};
 
-/// Times of the newest and the best checkpoint.
-type Stamp = [Option<SystemTime>; 2];
+/// What changes with a run's checkpoints.
+#[derive(Clone, Copy, PartialEq)]
+enum Stamp {
+    /// Times of the newest and the best one of a folder.
+    Folder([Option<SystemTime>; 2]),
+    /// Updates of the newest one of a store.
+    Store(u64),
+}
 
-/// A store is asked for a newer policy at every this many refreshes, since the whole state comes.
-const STORE_EVERY: u32 = 15;
+/// A store is asked for a newer policy at every this many refreshes.
+const STORE_EVERY: u32 = 5;
 /// Most contacts of a frame.
 const CONTACTS_MAX: usize = 12;
 
@@ -39,8 +48,9 @@ pub struct Player {
     which: Option<CheckpointChoice>,
     saved: SavedPolicy,
     world: PageWorld,
-    /// Times of the checkpoints that were read; `None` for a store.
+    /// That of the checkpoint that was read; `None` for a file.
     stamp: Option<Stamp>,
+    is_stored: bool,
     refreshes: u32,
     environment: Environment,
     agent: PolicyAgent,
@@ -68,7 +78,8 @@ impl Player {
         let mut player = Self {
             run: run.to_string(),
             which,
-            stamp: stamp(run),
+            stamp: None,
+            is_stored: saved_run::store_url(run).is_some(),
             refreshes: 0,
             saved,
             world,
@@ -112,7 +123,7 @@ impl Player {
         self.environment.task().command()
     }
 
-    /// Returns the names of [`PageFrame::rewards`].
+    /// Returns the names of [`PageFrame::rewards_e4`].
     pub fn reward_terms(&self) -> Vec<String> {
         let mut names = Vec::new();
         self.environment.task().reward_terms(&mut |name, _| names.push(name.to_string()));
@@ -135,16 +146,15 @@ impl Player {
     /// If the checkpoint cannot be read. The old policy plays on.
     pub fn refresh(&mut self) -> anyhow::Result<bool> {
         let Some(old_steps) = self.origin().map(|origin| origin.env_steps) else { return Ok(false) };
-        let stamp = stamp(&self.run);
         self.refreshes += 1;
-        let is_due = match stamp {
-            Some(_) => stamp != self.stamp,
-            None => self.refreshes.is_multiple_of(STORE_EVERY),
-        };
-        self.stamp = stamp;
-        if !is_due {
+        if self.is_stored && !self.refreshes.is_multiple_of(STORE_EVERY) {
             return Ok(false);
         }
+        let stamp = stamp(&self.run)?;
+        if stamp == self.stamp {
+            return Ok(false);
+        }
+        self.stamp = stamp;
         let saved = saved_policy::load(&self.run, self.which)?;
         if saved.origin.as_ref().is_none_or(|new| new.env_steps == old_steps) {
             return Ok(false);
@@ -159,15 +169,18 @@ impl Player {
         Ok(true)
     }
 
-    /// Starts anew in another world.
+    /// Builds another world.
     ///
     /// # Errors
     /// If a number of `world` is out of range.
-    pub fn enter(&mut self, tasks: &TaskRegistry, world: &PageWorld) -> anyhow::Result<()> {
-        self.environment = build(tasks, &self.run, &self.saved, world)?;
-        self.world = *world;
+    pub fn build_world(&self, tasks: &TaskRegistry, world: &PageWorld) -> anyhow::Result<Environment> {
+        build(tasks, &self.run, &self.saved, world)
+    }
+
+    /// Starts anew in a world that was built for it.
+    pub fn enter(&mut self, environment: Environment, world: &PageWorld) {
+        (self.environment, self.world) = (environment, *world);
         self.begin_episode();
-        Ok(())
     }
 
     /// Makes the robot follow a command; `None` gives it its own commands again.
@@ -207,15 +220,15 @@ impl Player {
         let physics = self.environment.physics();
         let mut rewards = Vec::new();
         self.environment.task().reward_terms(&mut |_, term| rewards.push(term as f32));
+        let rewards_e4 = rounded(&rewards, 1e4);
         let pose = Pose {
             episode: self.episode,
             time_s: f64::from(self.step) * self.control_step_s(),
             distance_m: (physics.position()[0] - self.start_x_m) as f32,
             ..poses::body_pose(&self.environment, self.command())
         };
-        let angles_mrad = physics.joint_angles().iter().map(|angle| (angle * 1000.0).round() as i32).collect();
         let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
-        PageFrame { robot, shown_s, rewards, angles_mrad, velocity, ..frame_of(&pose) }
+        PageFrame { robot, shown_s, rewards_e4, velocity, ..frame_of(&pose) }
     }
 
     fn begin_episode(&mut self) {
@@ -246,21 +259,31 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
         base_m: base_m.to_vec(),
         bodies: bodies.into(),
         contacts: contacts.into(),
-        angles_mrad: Vec::new(),
-        torques_cnm: pose.joint_torques_nm.iter().map(|torque| (torque * 100.0).round() as i32).collect(),
-        rewards: vec![pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact],
+        angles_mrad: rounded(&pose.joint_angles_rad, 1000.0),
+        torques_cnm: rounded(&pose.joint_torques_nm, 100.0),
+        rewards_e4: rounded(&[pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact], 1e4),
         command: pose.command.clone(),
         velocity: pose.base_velocity.clone(),
         distance_m: pose.distance_m,
+        centre_of_mass_m: pose.centre_of_mass_m.clone(),
     }
 }
 
-/// Returns when the newest and the best checkpoint of a run's folder were written; `None` without any.
-fn stamp(run: &str) -> Option<Stamp> {
-    let checkpoints = RunFolder::open(run).ok()?.checkpoints();
-    let written = |name| fs::metadata(checkpoints.join(name)).and_then(|file| file.modified()).ok();
-    let found = ["latest.bundle", "best.bundle"].map(written);
-    found.iter().any(Option::is_some).then_some(found)
+fn rounded(numbers: &[f32], units: f32) -> Vec<i32> {
+    numbers.iter().map(|number| (number * units).round() as i32).collect()
+}
+
+/// Returns the stamp of a run's checkpoints; `None` for a file.
+///
+/// # Errors
+/// If its store cannot be read.
+fn stamp(run: &str) -> anyhow::Result<Option<Stamp>> {
+    if let Some(url) = saved_run::store_url(run) {
+        return Ok(saved_run::stored_updates(&url)?.map(Stamp::Store));
+    }
+    let Ok(folder) = RunFolder::open(run) else { return Ok(None) };
+    let written = |name| fs::metadata(folder.checkpoints().join(name)).and_then(|file| file.modified()).ok();
+    Ok(Some(Stamp::Folder(["latest.bundle", "best.bundle"].map(written))))
 }
 
 fn build(tasks: &TaskRegistry, run: &str, saved: &SavedPolicy, world: &PageWorld) -> anyhow::Result<Environment> {

@@ -40,7 +40,17 @@ pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Ve
         bodies: model.bodies.iter().enumerate().map(body).collect(),
         hinges,
         reward_terms,
+        feet: feet(model),
     }
+}
+
+/// Returns the bodies that are feet: those of the robot's card, else those whose names say so.
+fn feet(model: &Model) -> Vec<u32> {
+    if let Some(robot) = &model.robot {
+        return robot.feet.iter().map(|foot| model.links[*foot].body as u32).collect();
+    }
+    let named = model.bodies.iter().enumerate().filter(|(_, body)| body.name.contains("foot"));
+    named.map(|(index, _)| index as u32).collect()
 }
 
 /// Returns the ground of a model; `None` if it is the plane z = 0.
@@ -100,6 +110,8 @@ mod tests {
         let hip = found.hinges.iter().find(|hinge| hinge.name == "right_hip_y").unwrap();
         // Gymnasium's humanoid: gear 300, controls of ±0.4.
         assert!((hip.effort_nm - 120.0).abs() < 1e-3, "{hip:?}");
+        let feet: Vec<_> = found.feet.iter().map(|foot| found.bodies[*foot as usize].name.as_str()).collect();
+        assert_eq!(feet, ["right_foot", "left_foot"]);
         assert!(ground(&model).is_none());
         let thigh = &found.bodies.iter().find(|body| body.name == "left_thigh").unwrap().meshes[0];
         assert_eq!(thigh.colour, 0xed_8c_3d);

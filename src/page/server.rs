@@ -95,12 +95,13 @@ async fn open_socket(State((hub, shutdown)): State<(Hub, Shutdown)>, upgrade: We
 
 /// Sends what is shown and takes what is asked, until the page closes or stops to listen.
 async fn converse(mut socket: WebSocket, hub: Hub) {
-    let Some(_seat) = hub.seat() else {
+    let Some(seat) = hub.seat() else {
         let full = ToPageKind::Notice(format!("{PAGES_MAX} pages are open already; close one"));
         send(&mut socket, full.to_bytes().into()).await;
         return;
     };
-    let PageView { mut scene, mut frames, mut news, curves, notice, mut generation } = hub.view();
+    let PageView { mut scene, mut frames, mut news, curves, notice, mut generation, mut steerer } = hub.view();
+    steerer.mark_changed();
     let newest = scene.borrow_and_update().clone();
     for message in [newest, curves, notice] {
         if !message.is_empty() && !send(&mut socket, message).await {
@@ -123,6 +124,13 @@ async fn converse(mut socket: WebSocket, hub: Hub) {
                 }
                 Err(RecvError::Closed) => return,
             },
+            changed = steerer.changed() => match changed {
+                Ok(()) => {
+                    let other = *steerer.borrow_and_update();
+                    ToPageKind::OthersSteer(other != 0 && other != seat.number()).to_bytes().into()
+                }
+                Err(_) => return,
+            },
             // A page that connects again receives all curves.
             new = news.recv() => match new {
                 Ok(new) => new,
@@ -131,7 +139,7 @@ async fn converse(mut socket: WebSocket, hub: Hub) {
             asked = socket.recv() => match asked {
                 Some(Ok(Message::Binary(bytes))) => match FromPage::decode_checked(&bytes) {
                     Ok(request) => {
-                        hub.ask(request);
+                        seat.ask(request);
                         continue;
                     }
                     Err(why) => {

@@ -1,18 +1,17 @@
 //! Policies that are played for the page, in real time, while one is open.
 
 use std::{
-    path::PathBuf,
     sync::mpsc::Receiver,
     thread,
     time::{Duration, Instant},
 };
 
-use treadmill_actor::poses::stride;
+use treadmill_actor::poses::is_shown;
 use treadmill_config::ChosenTask;
 use treadmill_humanoid::{TaskRegistry, mjcf::VisualMesh};
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_proto::page::{FromPageKind, PageCommand, PagePush, PageScene};
-use treadmill_runtime::{error_chain, shutdown::Shutdown};
+use treadmill_runtime::{error_chain, run_folder::RunFolder, shutdown::Shutdown};
 
 use super::{curves::RunLog, hub::Hub, player::Player, scene};
 
@@ -38,7 +37,7 @@ pub struct Show {
     /// Meshes of the robot's file; by default its colliding shapes.
     pub visuals: Vec<VisualMesh>,
     /// Logs of metrics, with the names of their runs.
-    pub logs: Vec<(PathBuf, String)>,
+    pub logs: Vec<(RunFolder, String)>,
     /// Tasks that policies may have.
     pub tasks: TaskRegistry,
 }
@@ -47,7 +46,7 @@ impl Show {
     /// Simulates while a page is open, until the stop. A policy that is not there yet is waited for.
     pub fn run(self, hub: &Hub, requests: &Receiver<FromPageKind>, shutdown: &Shutdown) {
         let mut logs: Vec<RunLog> =
-            self.logs.iter().map(|(file, run)| RunLog::new(file.clone(), run.clone())).collect();
+            self.logs.iter().map(|(folder, run)| RunLog::new(folder.clone(), run.clone())).collect();
         let mut stage: Option<Stage> = None;
         if self.runs.is_empty() {
             hub.show_scene(PageScene { title: self.title.clone(), ..PageScene::default() });
@@ -174,7 +173,7 @@ impl Stage {
                 player.step()?;
                 self.played_s[number] += step_s;
                 self.steps[number] += 1;
-                if self.steps[number].is_multiple_of(stride(step_s)) {
+                if is_shown(self.steps[number], step_s) {
                     hub.show_frame(player.frame(number as u32, self.played_s[number]));
                 }
             }
@@ -201,8 +200,11 @@ impl Stage {
                 self.players.iter_mut().for_each(|player| player.push(push_mps));
             }
             FromPageKind::World(world) => {
-                for player in &mut self.players {
-                    player.enter(&show.tasks, world)?;
+                // All worlds are built before one is entered: where one fails, robots stay side by side in the old one.
+                let build = |player: &Player| player.build_world(&show.tasks, world);
+                let built: Vec<_> = self.players.iter().map(build).collect::<anyhow::Result<_>>()?;
+                for (player, environment) in self.players.iter_mut().zip(built) {
+                    player.enter(environment, world);
                     player.steer(self.command);
                 }
                 hub.show_scene(self.scene(show, true));

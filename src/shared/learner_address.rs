@@ -11,7 +11,10 @@ use treadmill_runtime::{holder::Holder, run_folder::RunFolder, run_lock::holder,
 use crate::{
     diagnosis::Silence,
     launch::{async_runtime, exit_code::Usage, resume_line, slow_step::SlowStepNotice},
-    shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
+    shared::{
+        network_args::{DEFAULT_PORT, NetworkArgs, check_run},
+        saved_run,
+    },
 };
 
 /// Time without an answer after which the way to the endpoints is examined, and further time for an answer if it is free.
@@ -60,12 +63,7 @@ impl ReachArgs {
     /// Returns the store that was given, or that of the run whose folder was given.
     #[must_use]
     pub fn store_url(&self) -> Option<String> {
-        let given = self.folder.as_ref()?;
-        if given.contains("://") {
-            return Some(given.clone());
-        }
-        let text = fs::read_to_string(RunFolder::open(given).ok()?.store()).ok()?;
-        Some(text.trim().to_string())
+        saved_run::store_url(self.folder.as_ref()?)
     }
 
     /// Returns the folder of the run that was given, if no process trains it now.

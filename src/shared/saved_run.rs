@@ -5,6 +5,7 @@ use treadmill_learner::{
     leadership::{
         Manifest,
         follower::{LoadedState, newest_state},
+        read_manifest,
     },
 };
 use treadmill_runtime::{error_chain, run_folder::RunFolder, words::quoted};
@@ -17,14 +18,29 @@ use crate::launch::exit_code::Usage;
 /// # Errors
 /// If there is no such run, or its checkpoint is missing or cannot be used.
 pub fn load(run: &str, which: CheckpointChoice) -> anyhow::Result<Loaded> {
+    match store_url(run) {
+        Some(url) => load_stored(&url, which),
+        None => Ok(checkpoint::load(&RunFolder::open(run)?, which)?),
+    }
+}
+
+/// Returns the store that RUN names, or that of the run in its folder.
+#[must_use]
+pub fn store_url(run: &str) -> Option<String> {
     if run.contains("://") {
-        return load_stored(run, which);
+        return Some(run.to_string());
     }
-    let folder = RunFolder::open(run)?;
-    match std::fs::read_to_string(folder.store()) {
-        Ok(url) => load_stored(url.trim(), which),
-        Err(_) => Ok(checkpoint::load(&folder, which)?),
-    }
+    let url = std::fs::read_to_string(RunFolder::open(run).ok()?.store()).ok()?;
+    Some(url.trim().to_string())
+}
+
+/// Returns the updates of the newest state in a store, without reading it; `None` if the store holds no run.
+///
+/// # Errors
+/// If the store cannot be read.
+pub fn stored_updates(url: &str) -> anyhow::Result<Option<u64>> {
+    let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
+    Ok(read_manifest(&store)?.map(|(manifest, _)| manifest.updates))
 }
 
 fn load_stored(url: &str, which: CheckpointChoice) -> anyhow::Result<Loaded> {

@@ -148,6 +148,24 @@ impl Browser {
         }
     }
 
+    /// Clicks in the middle of an element.
+    pub fn click(&mut self, page: &Page, selector: &str) {
+        let middle = format!(
+            "(() => {{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
+             return [box.x + box.width / 2, box.y + box.height / 2]; }})()"
+        );
+        let at = self.value(page, &middle);
+        for kind in ["mousePressed", "mouseReleased"] {
+            let click = json!({"type": kind, "x": at[0], "y": at[1], "button": "left", "clickCount": 1});
+            self.of_page(page, "Input.dispatchMouseEvent", &click);
+        }
+    }
+
+    /// Closes a page.
+    pub fn close(&mut self, page: &Page) {
+        self.of_page(page, "Page.close", &json!({}));
+    }
+
     /// Returns the addresses that pages asked for.
     pub fn requests(&self) -> Vec<String> {
         let sent = self.events.iter().filter(|event| {

@@ -108,6 +108,7 @@ fn a_training_run_is_shown_and_found_again_after_its_learner_was_killed() {
     await_steps(&run, 1024);
     let address = format!("http://{listen}/");
     let page = browser.open(&address, WIDE);
+    browser.wait_for(&page, "window.treadmill?.fleet().runs === 1 && window.treadmill.fleet().actors === 1");
     browser.wait_for(&page, "window.treadmill?.frames() > 10");
     browser.wait_for(&page, "document.querySelectorAll('#charts .uplot').length > 2");
     browser.screenshot(&page).keep("train.png");
@@ -134,6 +135,92 @@ fn an_actor_that_trains_is_watched_live() {
     assert_clean(&browser, &address);
     stop(watching);
     drop(training);
+}
+
+#[test]
+fn a_trace_is_played_as_it_was_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(mut browser) = Browser::start() else { return };
+    done(folder.path(), &["eval", G1, "--episodes", "1", "--trace", "trace.jsonl"]);
+    let text = std::fs::read_to_string(folder.path().join("trace.jsonl")).unwrap();
+    let steps: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let (watching, address) = watch(folder.path(), &[G1, "--trace", "trace.jsonl"]);
+    let page = browser.open(&address, WIDE);
+    browser.wait_for(&page, "window.treadmill?.frames() > 20");
+    browser.press(&page, " ", "Space");
+    let shown = browser.value(&page, "window.treadmill.shown()");
+    // Between two steps of the trace: G1 makes one each 20 ms, the page shows 30 poses per second and what lies between.
+    let time_s = shown["time_s"].as_f64().unwrap();
+    let begun = (time_s / 0.02) as usize;
+    for axis in 0..3 {
+        let at = |step: usize| steps[step.min(steps.len() - 1)]["qpos"][axis].as_f64().unwrap();
+        let near: Vec<f64> = (begun.saturating_sub(3)..begun + 4).map(at).collect();
+        let (low, high) =
+            (near.iter().copied().fold(f64::MAX, f64::min), near.iter().copied().fold(f64::MIN, f64::max));
+        let found = shown["base_m"][axis].as_f64().unwrap();
+        assert!(
+            (low - 1e-3..=high + 1e-3).contains(&found),
+            "axis {axis}: {found} is not in {low} to {high} at {time_s} s"
+        );
+    }
+    assert_eq!(shown["angles_rad"].as_array().unwrap().len(), 29);
+    assert_clean(&browser, &address);
+    stop(watching);
+}
+
+#[test]
+fn one_page_at_a_time_steers_also_by_a_gamepad() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(mut browser) = Browser::start() else { return };
+    let (watching, address) = watch(folder.path(), &[G1, "--steer"]);
+    let [first, second] = [WIDE, WIDE].map(|size| browser.open(&address, size));
+    for page in [&first, &second] {
+        browser.wait_for(page, "window.treadmill?.frames() > 10");
+    }
+    browser.press(&first, "x", "KeyX");
+    browser.wait_for(&second, "window.treadmill.othersSteer()");
+    assert_eq!(browser.value(&first, "window.treadmill.othersSteer()"), false);
+    // A stick that is pushed forward after it rested once.
+    let gamepad = |forward: f64| {
+        format!(
+            "Object.defineProperty(navigator, 'getGamepads', {{ configurable: true, value: () => \
+             [{{ connected: true, mapping: 'standard', axes: [0, {}, 0, 0], buttons: [] }}] }}); true",
+            -forward
+        )
+    };
+    browser.value(&second, &gamepad(0.0));
+    let rested = browser.value(&second, "window.treadmill.frames()");
+    browser.wait_for(&second, &format!("window.treadmill.frames() > {rested} + 30"));
+    browser.value(&second, &gamepad(1.0));
+    browser.wait_for(&first, "window.treadmill.othersSteer()");
+    // Full forward is the end of training's range, 1 m/s.
+    browser.wait_for(&first, "Math.abs(window.treadmill.shown().command[0] - 1) < 1e-3");
+    // Its command ends with it.
+    browser.close(&second);
+    browser.wait_for(&first, "!window.treadmill.othersSteer()");
+    // Full screen, and back.
+    browser.click(&first, "#full");
+    browser.wait_for(&first, "document.fullscreenElement !== null");
+    browser.click(&first, "#full");
+    browser.wait_for(&first, "document.fullscreenElement === null");
+    stop(watching);
+}
+
+#[test]
+fn seeds_of_one_experiment_are_shown_as_a_band() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(mut browser) = Browser::start() else { return };
+    for seed in ["1", "2"] {
+        let run = format!("walk-{seed}");
+        let train = ["train", "--preset", "smoke", "--steps", "4096", "--seed", seed, "--run-dir", &run, "--no-page"];
+        done(folder.path(), &train);
+    }
+    let (watching, address) = watch(folder.path(), &["walk-1", "walk-2"]);
+    let page = browser.open(&address, WIDE);
+    browser.wait_for(&page, "window.treadmill?.bands() > 2");
+    browser.screenshot(&page).keep("seeds.png");
+    assert_clean(&browser, &address);
+    stop(watching);
 }
 
 /// Sends a request and returns the answer's first line.
@@ -178,7 +265,15 @@ fn invalid_arguments_are_refused_by_name() {
     refused(&[], 2, &["treadmill watch runs/walk-1", "--live"]);
     refused(&["absent"], 2, &["absent"]);
     refused(&[WALK, "absent"], 2, &["absent"]);
-    refused(&[WALK, WALK, WALK, WALK, WALK], 2, &["5 policies", "at most 4"]);
+    refused(&[WALK; 33], 2, &["33 runs", "at most 32"]);
+    refused(
+        &[WALK, "--trace", "absent.jsonl"],
+        1,
+        &["--trace absent.jsonl", "treadmill eval RUN --trace absent.jsonl"],
+    );
+    std::fs::write(folder.path().join("trace.jsonl"), "{\"episode\":1,\"step\":0,\"qpos\":[0],\"qvel\":[]}\n").unwrap();
+    refused(&[WALK, "--trace", "trace.jsonl"], 1, &["--trace trace.jsonl: line 1", "this robot has [24, 23]"]);
+    assert_usage(folder.path(), &["watch", WALK, "--trace", "trace.jsonl", "--steer"], &["--trace", "--steer"]);
     refused(&[WALK, "--page-listen", "0.0.0.0:7448"], 2, &["--page-listen 0.0.0.0:7448", "ssh -L 7448:127.0.0.1:7448"]);
     refused(&[WALK, "--actor", "a"], 2, &["--live"]);
     refused(&["--live", "run", "--steer"], 2, &["--live", "--steer"]);

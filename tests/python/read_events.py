@@ -3,9 +3,11 @@
 
 Usage: read_events.py FOLDER    (needs the PyPI package `tensorboard`)
 
-{"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "hparams": {...}}: scalars have numbers
-as values, texts have strings, histograms have rows of left edge, right edge and count. "hparams" is the content of the
-HPARAMS tab for the parent folder: columns, and for each session its values, status and metrics.
+{"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "pictures": {tag: [[step, width, height,
+begin], ...]}, "charts": {title: {title: tags}}, "hparams": {...}}: scalars have numbers as values, texts have strings,
+histograms have rows of left edge, right edge and count, pictures the first six bytes of their file. "charts" are those of the
+CUSTOM SCALARS tab. "hparams" is the content of the HPARAMS tab for the parent folder: columns, and for each session its
+values, status and metrics.
 Exit code 2 means wrong usage.
 """
 
@@ -16,8 +18,11 @@ from pathlib import Path
 from tensorboard.backend.event_processing import data_provider, event_accumulator, plugin_event_multiplexer
 from tensorboard.context import RequestContext
 from tensorboard.plugins import base_plugin
+from tensorboard.plugins.custom_scalar import layout_pb2
+from tensorboard.plugins.custom_scalar import metadata as custom_metadata
 from tensorboard.plugins.histogram import metadata as histogram_metadata
 from tensorboard.plugins.hparams import api_pb2, backend_context, get_experiment, list_session_groups
+from tensorboard.plugins.image import metadata as image_metadata
 from tensorboard.plugins.text import metadata as text_metadata
 from tensorboard.util import tensor_util
 
@@ -26,11 +31,11 @@ SIZES = {event_accumulator.SCALARS: EVERYTHING, event_accumulator.TENSORS: EVERY
 
 
 def read(folder):
-    """Returns scalars and texts, and histograms. Several event files count as one run, as in TensorBoard."""
+    """Returns scalars and texts, histograms, pictures and charts. Several event files are one run, as in TensorBoard."""
     accumulator = event_accumulator.EventAccumulator(str(folder), size_guidance=SIZES)
     accumulator.Reload()
     tags = accumulator.Tags()
-    points, histograms = {}, {}
+    points, histograms, pictures, charts = {}, {}, {}, {}
     for tag in tags[event_accumulator.SCALARS]:
         points[tag] = [[event.step, event.value] for event in accumulator.Scalars(tag)]
     for tag in tags[event_accumulator.TENSORS]:
@@ -43,7 +48,14 @@ def read(folder):
             histogram_metadata.parse_plugin_metadata(data.content)
             read_rows = lambda event: tensor_util.make_ndarray(event.tensor_proto).tolist()
             histograms[tag] = [[event.step, read_rows(event)] for event in events]
-    return points, histograms
+        elif data.plugin_name == image_metadata.PLUGIN_NAME:
+            parts = [(event.step, event.tensor_proto.string_val) for event in events]
+            pictures[tag] = [[step, int(width), int(height), file[:6].decode()] for step, (width, height, file) in parts]
+        elif data.plugin_name == custom_metadata.PLUGIN_NAME:
+            layout = layout_pb2.Layout.FromString(events[-1].tensor_proto.string_val[0])
+            tags_of = lambda category: {chart.title: list(chart.multiline.tag) for chart in category.chart}
+            charts = {category.title: tags_of(category) for category in layout.category}
+    return {"points": points, "histograms": histograms, "pictures": pictures, "charts": charts}
 
 
 def hparams(logdir):
@@ -80,8 +92,7 @@ def main():
         print(__doc__, file=sys.stderr)
         sys.exit(2)
     folder = Path(sys.argv[1])
-    points, histograms = read(folder)
-    print(json.dumps({"points": points, "histograms": histograms, "hparams": hparams(folder.parent)}))
+    print(json.dumps({**read(folder), "hparams": hparams(folder.parent)}))
 
 
 if __name__ == "__main__":

@@ -94,6 +94,9 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     }
     let lags = &first["histograms"]["bus/policy_lag"][0][1];
     assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "no fragment lags in lock-step");
+    let charts = &first["charts"]["Results"];
+    assert_eq!(charts["falls [share]"], serde_json::json!(["^rollout/fall_fraction$", "^eval/fall_fraction$"]));
+    assert!(charts["distance [m]"].is_array() && first["charts"]["Learning"].is_object(), "{charts}");
     let documented = page("reference/metrics");
     for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions", "description"] {
         assert!(documented.contains(&format!("`{tag}`")), "docs/reference/metrics.md does not explain {tag}");
@@ -140,4 +143,24 @@ fn a_failed_run_has_the_status_failure() {
     let sessions = events["hparams"]["sessions"].as_array().unwrap();
     assert_eq!(sessions.len(), 1);
     assert_eq!(sessions[0]["status"], serde_json::json!(["STATUS_FAILURE"]));
+}
+
+#[test]
+fn a_film_of_the_newest_policy_is_shown() {
+    let Some(python) = python_with("tensorboard") else { return };
+    let (folder, run) = folders();
+    let training = start_endless(folder.path(), &run, "train", &["--set", "eval.every_steps=1024", "--no-page"]);
+    let is_filmed = || {
+        let files = fs::read_dir(&run).ok()?.filter_map(Result::ok).map(|entry| entry.path());
+        let mut events = files.filter(|path| path.to_string_lossy().contains("tfevents"));
+        let has_film =
+            |path: std::path::PathBuf| fs::read(path).is_ok_and(|bytes| bytes.windows(6).any(|at| at == b"GIF89a"));
+        events.any(has_film).then_some(())
+    };
+    await_that("a film among the events", is_filmed);
+    stop(training);
+    let events = read(&python, &run);
+    let [film, ..] = &events["pictures"]["film"].as_array().unwrap()[..] else { panic!("no film: {events}") };
+    assert_eq!((&film[1], &film[2], &film[3]), (&320.into(), &240.into(), &"GIF89a".into()));
+    assert!(film[0].as_u64().unwrap() > 0, "the policy has learnt: {film}");
 }

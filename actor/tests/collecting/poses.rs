@@ -3,7 +3,7 @@
 use tokio::sync::mpsc;
 use treadmill_actor::{
     environments::{Environments, StepResults},
-    poses::{PoseSampler, stride},
+    poses::PoseSampler,
 };
 use treadmill_bus::actor::Watched;
 use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model};
@@ -55,7 +55,7 @@ fn without_observers_nothing_is_recorded() {
     // An observer that subscribes in the middle of the third episode gets the fourth from its start.
     recording.watched.set(true);
     recording.step(7);
-    assert_eq!(moments(&recording.recorded()), [(4, 0), (4, 2), (4, 4), (4, 6)]);
+    assert_eq!(moments(&recording.recorded()), [(4, 0), (4, 3), (4, 5)]);
     recording.watched.set(false);
     recording.step(20);
     assert!(recording.recorded().is_empty());
@@ -66,7 +66,7 @@ fn an_episode_is_recorded_whole_and_drained_before_the_next() {
     let mut recording = Recording::begin(&limited(7));
     recording.watched.set(true);
     recording.step(40);
-    let whole = |episode| [0, 2, 4, 6].map(|step| (episode, step));
+    let whole = |episode| [0, 3, 5].map(|step| (episode, step));
     assert_eq!(moments(&recording.recorded()), whole(2), "episodes that began before the queue was empty are left out");
     recording.step(14);
     assert_eq!(moments(&recording.recorded()), whole(7));
@@ -80,19 +80,19 @@ fn poses_follow_the_control_step() {
     recording.watched.set(true);
     recording.step(14);
     let poses = recording.recorded();
-    assert_eq!(moments(&poses), [0, 3, 6].map(|step| (2, step)));
-    assert!((poses[2].time_s - 0.06).abs() < 1e-12);
+    assert_eq!(moments(&poses), [0, 4].map(|step| (2, step)));
+    assert!((poses[1].time_s - 0.04).abs() < 1e-12);
 }
 
 #[test]
 fn a_pose_repeats_the_state_of_the_physics() {
     let mut recording = Recording::begin(&limited(9));
     recording.watched.set(true);
-    recording.step(13);
+    recording.step(12);
     let poses = recording.recorded();
     let model = Model::from_mjcf(HUMANOID_XML).unwrap();
     let last = poses.last().unwrap();
-    assert_eq!((last.episode, last.step), (2, 4));
+    assert_eq!((last.episode, last.step), (2, 3));
     let physics = recording.environments.first().unwrap().environment.physics();
     assert_eq!(last.bodies.len(), 7 * model.bodies.len());
     assert_eq!(last.joint_torques_nm.len(), model.hinges.len());
@@ -102,7 +102,10 @@ fn a_pose_repeats_the_state_of_the_physics() {
         let rotation = motion.pose.rotation.quaternion();
         assert_eq!(numbers[3..], [rotation.w, rotation.i, rotation.j, rotation.k].map(|part| part as f32));
     }
-    assert_eq!((last.time_s, poses[0].distance_m), (4.0 * 0.015, 0.0));
+    let narrow = |numbers: &[f64]| numbers.iter().map(|number| *number as f32).collect::<Vec<_>>();
+    assert_eq!(last.joint_angles_rad, narrow(physics.joint_angles()));
+    assert_eq!(last.centre_of_mass_m, narrow(physics.centre_of_mass().coords.as_slice()));
+    assert_eq!((last.time_s, poses[0].distance_m), (3.0 * 0.015, 0.0));
     assert_eq!(last.reward_survive, 5.0);
     for pose in &poses {
         assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()).as_ref(), Ok(pose));
@@ -123,7 +126,8 @@ fn the_queue_of_a_long_episode_is_bounded() {
     recording.step(2000);
     let poses = recording.recorded();
     assert_eq!(poses.len(), 512);
-    assert_eq!(poses.last().unwrap().step, 511 * stride(0.015));
+    // The first one is of step 0; 30 in a second of 66.7 steps follow: 511 ÷ 0.45 is 1135.6.
+    assert_eq!(poses.last().unwrap().step, 1136);
     // The queue is empty again, but the rest of this episode stays dropped.
     recording.step(100);
     assert!(recording.recorded().is_empty());

@@ -37,10 +37,13 @@ struct Mark {
     alive_s: f64,
 }
 
-impl EfficiencyMeter {
-    /// Number of updates in the measurement.
-    const UPDATES: usize = 20;
+/// Time over which speed and efficiency are measured; longer where updates are slow, so that there are enough of them.
+const WINDOW: Duration = Duration::from_secs(10);
+const UPDATES_MIN: usize = 20;
+/// Most updates of a measurement, so that it stays small.
+const UPDATES_MAX: usize = 4096;
 
+impl EfficiencyMeter {
     /// Starts to measure.
     pub fn new(now: Instant, env_steps: u64) -> Self {
         let (waited, effort) = (Duration::ZERO, FleetEffort::default());
@@ -63,7 +66,9 @@ impl EfficiencyMeter {
         let (waited, learnt) = (last.waited + waited, last.learnt + learnt);
         let newest = Mark { at: now, env_steps, waited, learnt, effort, alive_s };
         self.marks.push_back(newest);
-        if self.marks.len() > Self::UPDATES {
+        let is_old = |mark: &Mark| now.duration_since(mark.at) > WINDOW;
+        while self.marks.len() > UPDATES_MAX || self.marks.len() > UPDATES_MIN && self.marks.get(1).is_some_and(is_old)
+        {
             self.marks.pop_front();
         }
         let first = self.marks.front().copied().expect("a mark was just added");

@@ -95,9 +95,9 @@ impl History {
         self.points.iter().copied().chain(missing)
     }
 
-    /// Greatest mean distance of an evaluation or in training, in metres.
-    pub fn farthest_m(&self) -> Option<f64> {
-        greater(self.distance_best_m, self.evaluated_best_m)
+    /// Best distance of the run, in metres: the greatest mean of an evaluation, or in training before the first one.
+    pub fn best_m(&self) -> Option<f64> {
+        self.evaluated_best_m.or(self.distance_best_m)
     }
 }
 
@@ -136,13 +136,14 @@ mod tests {
     #[test]
     fn the_greatest_distances_are_kept() {
         let mut history = History::default();
-        assert_eq!(history.farthest_m(), None);
+        assert_eq!(history.best_m(), None);
         for distance_m in [1.0, 4.0, 2.0, f64::NAN] {
             history.add(Some(1.0), Some(distance_m), None);
         }
+        assert_eq!(history.best_m(), Some(4.0));
         history.add(None, None, Some(3.0));
         assert_eq!((history.distance_best_m, history.evaluated_best_m), (Some(4.0), Some(3.0)));
-        assert_eq!(history.farthest_m(), Some(4.0));
+        assert_eq!(history.best_m(), Some(3.0), "exploration is no evaluation");
     }
 
     #[test]
@@ -157,6 +158,6 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let history = History::read(&path).unwrap();
         assert_eq!(history.points().collect::<Vec<_>>(), [Point { return_mean: 5.0, distance_m: 0.5 }]);
-        assert_eq!(history.farthest_m(), Some(7.5));
+        assert_eq!(history.best_m(), Some(7.5));
     }
 }

@@ -5,6 +5,7 @@
 //! - `parts`: [`PartMeter`], the speed that each part of training would allow alone.
 //! - [`scalars`]: what the scalars of an update are computed from; [`histograms`]: distributions of actions and lags.
 //! - [`reward_terms`]: [`RewardTerms`], the terms of the reward over a batch.
+//! - [`films`]: [`FilmSlot`], films of the robot for TensorBoard.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
 //! - [`progress`]: [`Console`], progress on standard output.
 //! - [`table`]: scalars as text, pure functions.
@@ -22,6 +23,7 @@ pub mod catalogue;
 pub mod curve;
 pub mod curve_thread;
 mod efficiency;
+pub mod films;
 pub mod histograms;
 pub mod history;
 pub mod jsonl;
@@ -38,6 +40,7 @@ pub mod tensorboard;
 pub use curve::{CurveError, draw_curve};
 pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
+pub use films::{FilmOfPolicy, FilmSlot};
 pub use history::History;
 pub use jsonl::JsonLines;
 pub use parts::{PARTS, PartMeter, PartTimes, TrainingPart};

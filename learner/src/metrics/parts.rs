@@ -2,6 +2,7 @@
 
 use std::{collections::HashMap, time::Duration};
 
+use treadmill_config::LearnerMode;
 use treadmill_proto::ActorStats;
 
 use super::scalars::PhaseDurations;
@@ -34,8 +35,9 @@ pub const PARTS: [TrainingPart; 8] = [
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PartTimes {
     seconds: [f64; PARTS.len()],
-    /// Seconds per environment step of the whole.
+    /// Seconds per environment step of the whole, and of it without waiting for the bus.
     round_s: f64,
+    work_s: f64,
 }
 
 impl PartTimes {
@@ -45,17 +47,20 @@ impl PartTimes {
         (seconds > 0.0).then(|| 1.0 / seconds)
     }
 
-    /// Returns the environment steps per second without waiting for the bus: actors and learner work in turn, each part at
-    /// its own speed. `None` before actors have reported.
+    /// Returns the environment steps per second without waiting for the bus, each part at its own speed: actors and learner
+    /// work in turn in mode `sync`, at the same time in mode `async`. `None` before actors have reported.
     pub fn ideal_steps_per_s(&self) -> Option<f64> {
-        let bus = PARTS.iter().position(|part| part.name == "bus");
-        let work_s: f64 = (0..PARTS.len()).filter(|part| Some(*part) != bus).map(|part| self.seconds[part]).sum();
-        (self.seconds[0] > 0.0).then(|| 1.0 / work_s)
+        (self.seconds[0] > 0.0).then(|| 1.0 / self.work_s)
     }
 
     /// Returns the speed of training, divided by the ideal one.
     pub fn efficiency(&self) -> Option<f64> {
         Some(1.0 / (self.round_s * self.ideal_steps_per_s()?))
+    }
+
+    /// Returns the share of each of [`PARTS`] in the time of a round; `None` before actors have reported.
+    pub fn shares(&self) -> Option<[f64; PARTS.len()]> {
+        (self.seconds[0] > 0.0).then(|| self.seconds.map(|seconds| seconds / self.round_s))
     }
 
     /// Returns the part that takes most of the time; `None` before actors have reported.
@@ -87,8 +92,8 @@ impl PartMeter {
         self.round_s = self.round_s * keep + round.as_secs_f64();
     }
 
-    /// Returns the times of all parts; those of actors are from what they report.
-    pub fn times(&self, stats: &HashMap<String, ActorStats>) -> PartTimes {
+    /// Returns the times of all parts in this mode; those of actors are from what they report.
+    pub fn times(&self, stats: &HashMap<String, ActorStats>, mode: LearnerMode) -> PartTimes {
         let of_actors = |of: fn(&ActorStats) -> f64| {
             let together: f64 = stats.values().map(of).filter(|rate| rate.is_finite() && *rate > 0.0).sum();
             if together > 0.0 { 1.0 / together } else { 0.0 }
@@ -101,10 +106,16 @@ impl PartMeter {
         ];
         let [batch, update, checkpoint, publishing] = self.learner_s.map(|seconds| seconds / steps);
         let round_s = self.round_s / steps;
-        let work_s = simulation + inference + encoding + batch + update + checkpoint + publishing;
-        let bus = (round_s - work_s).max(0.0);
+        let (of_actors, of_learner) = (simulation + inference + encoding, batch + update + checkpoint + publishing);
+        let work_s = match mode {
+            LearnerMode::Sync => of_actors + of_learner,
+            LearnerMode::Async => of_actors.max(of_learner),
+        };
+        // A shorter round shows that more of the parts overlapped.
+        let work_s = work_s.min(round_s);
+        let bus = round_s - work_s;
         let seconds = [simulation, inference, encoding, bus, batch, update, checkpoint, publishing];
-        PartTimes { seconds, round_s }
+        PartTimes { seconds, round_s, work_s }
     }
 }
 
@@ -115,7 +126,7 @@ mod tests {
     #[test]
     fn figures_are_those_computed_by_hand() {
         let mut meter = PartMeter::default();
-        assert_eq!(meter.times(&HashMap::new()).limit(), None);
+        assert_eq!(meter.times(&HashMap::new(), LearnerMode::Sync).limit(), None);
         let ms = Duration::from_millis;
         let durations =
             PhaseDurations { update: ms(30), learn: ms(25), checkpoint: ms(2), publish: ms(3), ..Default::default() };
@@ -129,7 +140,8 @@ mod tests {
         let broken = ActorStats { simulation_steps_per_s: f64::NAN, ..ActorStats::default() };
         let stats = [("a", actor.clone()), ("b", actor), ("c", broken)].map(|(name, stats)| (name.to_string(), stats));
         // Per 1,000 steps of two actors: 40, 10 and 2 ms; the learner's parts take 5, 25, 2 and 3 ms, and 13 ms remain.
-        let times = meter.times(&HashMap::from(stats));
+        let stats = HashMap::from(stats);
+        let times = meter.times(&stats, LearnerMode::Sync);
         let close = |found: Option<f64>, expected: f64| {
             let found = found.expect("it is known");
             assert!((found - expected).abs() < 1e-6 * expected, "{found} {expected}");
@@ -139,7 +151,16 @@ mod tests {
         close(times.steps_per_s("batch"), 200_000.0);
         close(times.ideal_steps_per_s(), 1e6 / 87.0);
         close(times.efficiency(), 0.87);
+        close(times.shares().map(|shares| shares[0]), 0.4);
         assert_eq!(times.limit().map(|part| part.name), Some("simulation"));
         assert_eq!(times.steps_per_s("other"), None);
+        // At the same time, the actors' 52 ms bind.
+        let times = meter.times(&stats, LearnerMode::Async);
+        close(times.ideal_steps_per_s(), 1e6 / 52.0);
+        close(times.efficiency(), 0.52);
+        // Rounds of 70 ms are shorter than 87 ms of work in turn.
+        let mut fast = PartMeter::default();
+        fast.add(1000, ms(70), &durations);
+        close(fast.times(&stats, LearnerMode::Sync).efficiency(), 1.0);
     }
 }

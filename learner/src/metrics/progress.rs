@@ -257,7 +257,7 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let returns = curve(|point| point.return_mean, None, 0, "")?;
     let moved = match history.has_commands {
         true => obeyed(history),
-        false => Some(format!("distance {}", curve(|point| point.distance_m, history.farthest_m(), 1, " m")?)),
+        false => Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?)),
     };
     Some(std::iter::once(format!("return {returns}")).chain(moved).collect::<Vec<_>>().join(", "))
 }

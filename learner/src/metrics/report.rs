@@ -3,13 +3,13 @@
 use std::{collections::HashMap, io, time::Duration};
 
 use treadmill_bus::{Bus, learner::publish_metric};
-use treadmill_config::Config;
+use treadmill_config::{ChosenTask, Config};
 use treadmill_proto::json::Metric;
 use treadmill_runtime::{error_chain, machine, run_folder::RunFolder};
 
 use super::{
-    Console, ConsoleOptions, CurveError, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics,
-    tensorboard::texts,
+    Console, ConsoleOptions, CurveError, CurveThread, EventWriter, FilmOfPolicy, FilmSlot, Histogram, History,
+    JsonLines, PrometheusMetrics, tensorboard::texts,
 };
 use crate::{checkpoint::TrainingState, waiting::Retry};
 
@@ -27,6 +27,8 @@ pub struct ReportOptions {
     pub command: String,
     /// Names and values of versions and machine, for TensorBoard.
     pub versions: Vec<(String, String)>,
+    /// Films for TensorBoard.
+    pub films: FilmSlot,
 }
 
 /// All outputs of scalars and histograms.
@@ -40,6 +42,7 @@ pub struct MetricsReport {
     prometheus: PrometheusMetrics,
     publishers: HashMap<String, Publish>,
     table_every_updates: u64,
+    films: FilmSlot,
 }
 
 impl MetricsReport {
@@ -63,6 +66,7 @@ impl MetricsReport {
         let first_step = if env_steps > 0 { env_steps + 1 } else { 0 };
         events.begin_session(first_step, now)?;
         events.hyperparameters(config, now)?;
+        events.layout(env_steps, now, config.env.chosen_task() == ChosenTask::Velocity)?;
         // Texts that apply from this step on; TensorBoard also shows the earlier ones.
         for (tag, text) in [
             ("config", texts::configuration(config)),
@@ -84,6 +88,7 @@ impl MetricsReport {
             prometheus: options.prometheus.clone(),
             publishers: HashMap::new(),
             table_every_updates: config.learner.table_every_updates.into(),
+            films: options.films.clone(),
         })
     }
 
@@ -116,6 +121,12 @@ impl MetricsReport {
             .collect();
         retry.until_written(|| self.lines.write(&metrics))?;
         retry.until_written(|| self.events.scalars(env_steps, time_unix_s, scalars))?;
+        if let Some(FilmOfPolicy { env_steps, size, gif }) = self.films.take() {
+            // A film is no reason to wait for a disk.
+            if let Err(why) = self.events.picture(env_steps, time_unix_s, "film", size, gif) {
+                tracing::warn!(error = %why, "a film of the robot was not written for TensorBoard");
+            }
+        }
         self.prometheus.set(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
         for metric in &metrics {
             self.publish(metric);

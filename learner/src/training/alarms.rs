@@ -6,6 +6,7 @@ use treadmill_config::{Config, LearnerMode};
 use treadmill_ppo::{UpdateError, UpdateStats};
 use treadmill_runtime::error_chain;
 
+use super::stuck::Stuck;
 use crate::{checkpoint::EpisodeMeans, intake::Rejections, metrics::Efficiency};
 
 /// Share of the simulated steps below which waste is an alarm.
@@ -35,13 +36,21 @@ pub(super) struct Alarms {
     /// Updates in a row with short episodes, and with a curriculum that stands still.
     short_updates: u32,
     stalled_updates: u32,
+    stuck: Stuck,
     episodes: Vec<String>,
     episodes_logged: Option<Instant>,
 }
 
 impl Alarms {
-    /// Records how the last episodes went, after an update.
-    pub(super) fn record_episodes(&mut self, means: Option<EpisodeMeans>, config: &Config, now: Instant) {
+    /// Records how the last episodes and the last evaluation, with its velocity error (m/s), went, after an update of a run
+    /// with so many steps.
+    pub(super) fn record_episodes(
+        &mut self,
+        (means, error_mps): (Option<EpisodeMeans>, Option<f64>),
+        env_steps: u64,
+        config: &Config,
+        now: Instant,
+    ) {
         let Some(means) = means else { return };
         let count = |updates: u32, is_so: bool| if is_so { updates.saturating_add(1) } else { 0 };
         self.short_updates = count(self.short_updates, means.length_mean <= SHORT_STEPS);
@@ -52,7 +61,7 @@ impl Alarms {
         let is_slow = means.command_factor.is_some_and(|factor| factor < FIRST_FACTORS);
         let survives = means.fall_fraction < 0.5;
         self.stalled_updates = count(self.stalled_updates, survives && (is_low || is_slow));
-        self.episodes.clear();
+        self.episodes = self.stuck.record(means, error_mps, env_steps, config).into_iter().collect();
         if self.short_updates >= SHORT_UPDATES {
             self.episodes.push(format!(
                 "episodes end after {:.1} steps, for {} updates, which teaches nothing: see how the robot starts by \
@@ -203,7 +212,7 @@ mod tests {
             ..EpisodeMeans::default()
         };
         let record = |alarms: &mut Alarms, updates: u32, means: EpisodeMeans| {
-            (0..updates).for_each(|_| alarms.record_episodes(Some(means), &config, now));
+            (0..updates).for_each(|_| alarms.record_episodes((Some(means), None), 0, &config, now));
             alarms.texts(&rejections, now)
         };
         assert!(record(&mut alarms, SHORT_UPDATES - 1, means(1.0, 1.0, 0.0)).is_empty());

@@ -26,6 +26,7 @@ mod serving;
 mod start;
 mod status;
 mod storage;
+mod stuck;
 
 use std::time::{Duration, Instant};
 

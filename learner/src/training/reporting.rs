@@ -172,13 +172,14 @@ impl Reporting {
             self.efficiency_meter.mark(Instant::now(), env_steps, serving.waited, learnt, effort, alive.len());
         let losses = [validator.counts.too_old, state.counters.undone_updates];
         self.alarms.record_efficiency(self.efficiency, losses, config, Instant::now());
-        self.alarms.record_episodes(state.episodes.means(), config, Instant::now());
+        let error_mps = self.history.tracking_errors.map(|[velocity_mps, _]| velocity_mps);
+        self.alarms.record_episodes((state.episodes.means(), error_mps), env_steps, config, Instant::now());
         self.lag_mean = lag.mean;
         let is_due = self.is_due(state, config, evaluation.is_some());
         let stats = self.stats.newest();
         let round = std::mem::replace(&mut self.round_ended, Instant::now()).elapsed();
         self.part_meter.add(learnt, round, durations);
-        self.parts = self.part_meter.times(stats);
+        self.parts = self.part_meter.times(stats, config.learner.mode);
         self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
         self.history.add(return_mean, distance_m, evaluation.as_ref().map(|result| result.report.distance_mean_m));

@@ -3,11 +3,14 @@
 use std::time::{Duration, Instant};
 
 use treadmill_config::Config;
-use treadmill_proto::{Phase, RunStatus};
+use treadmill_proto::{PartTime, Phase, RunStatus};
 use treadmill_runtime::{machine, program};
 
 use super::Trainer;
-use crate::checkpoint::TrainingState;
+use crate::{
+    checkpoint::TrainingState,
+    metrics::{PARTS, PartTimes},
+};
 
 /// Longest interval between two publications of the status while the learner waits.
 pub(super) const EVERY: Duration = Duration::from_secs(1);
@@ -24,6 +27,11 @@ pub(super) fn first(state: &TrainingState, config: &Config) -> RunStatus {
         env_steps_wanted: config.run.steps,
         ..RunStatus::default()
     }
+}
+
+fn parts(times: &PartTimes) -> Vec<PartTime> {
+    let shares = times.shares().into_iter().flatten();
+    PARTS.iter().zip(shares).map(|(part, share)| PartTime { name: part.name.to_string(), share }).collect()
 }
 
 impl Trainer {
@@ -71,6 +79,7 @@ impl Trainer {
             undone_updates: state.counters.undone_updates,
             limit: reporting.parts.limit().map(|part| part.name.to_string()).unwrap_or_default(),
             limit_help: reporting.parts.limit().map(|part| part.help.to_string()).unwrap_or_default(),
+            parts: parts(&reporting.parts),
             alarms: reporting.alarms.texts(&validator.rejections, Instant::now()),
             ..first(state, &self.config)
         };

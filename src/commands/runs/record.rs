@@ -30,6 +30,8 @@ pub(crate) struct Record {
     pub(crate) best_eval_at: Option<u64>,
     /// Means over the last training episodes.
     pub(crate) training_distance_m: Option<f64>,
+    /// Greatest mean distance in training.
+    pub(crate) training_best_m: Option<f64>,
     pub(crate) training_return: Option<f64>,
     pub(crate) fall_fraction: Option<f64>,
     /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it
@@ -87,6 +89,7 @@ impl Record {
             env_steps: state.counters.env_steps,
             wall_s: state.counters.wall_s,
             training_distance_m: means.map(|means| means.distance_mean_m),
+            training_best_m: means.map(|means| means.distance_mean_m),
             training_return: means.map(|means| means.return_mean),
             fall_fraction: means.map(|means| means.fall_fraction),
             is_running: manifest.status == Status::Training,
@@ -114,6 +117,7 @@ impl Record {
             "time/time_elapsed" => self.wall_s = value,
             "rollout/ep_rew_mean" => self.training_return = Some(value),
             "rollout/distance_mean_m" => self.training_distance_m = Some(value),
+            "rollout/distance_best_m" => self.training_best_m = Some(value),
             "rollout/fall_fraction" => self.fall_fraction = Some(value),
             "eval/velocity_error" => self.velocity_error_mps = Some(value),
             "eval/distance_mean_m" if self.best_eval_distance_m.is_none_or(|best| value > best) => {
@@ -158,7 +162,12 @@ impl Record {
             let falls = self.fall_fraction.is_some_and(|share| share > FALLS_MOSTLY);
             return (u8::from(falls), self.velocity_error_mps.unwrap_or(f64::INFINITY));
         }
-        (2, -self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY))
+        (2, -self.best_m().unwrap_or(f64::NEG_INFINITY))
+    }
+
+    /// Returns the best distance (m), as the progress of training has it: of an evaluation, or else in training.
+    pub(crate) fn best_m(&self) -> Option<f64> {
+        self.best_eval_distance_m.or(self.training_best_m)
     }
 
     /// Returns the mean speed over the whole run.

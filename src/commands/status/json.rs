@@ -38,6 +38,8 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
             })
         })
         .collect();
+    let parts = run.parts.iter().map(|part| (part.name.clone(), part.share.into()));
+    let parts: serde_json::Map<String, serde_json::Value> = parts.collect();
     json!({
         "run": run.run,
         "phase": match run.phase() {
@@ -72,6 +74,7 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         },
         "used_share": run.used_share,
         "idle_share": run.idle_share,
+        "parts": parts,
         "limit": run.limit,
         "limit_help": run.limit_help,
         "undone_updates": run.undone_updates,

@@ -42,7 +42,7 @@ pub fn idle(reach: &ReachArgs, json: bool) -> Option<anyhow::Result<Idle>> {
 
 fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json: bool) -> String {
     let leader = manifest.filter(|manifest| manifest.status == Status::Training);
-    let distance_m = record.best_eval_distance_m.or(record.training_distance_m);
+    let distance_m = record.best_m();
     if json {
         return json!({
             "run": record.name,

@@ -1,7 +1,7 @@
 //! Statuses for tests of drawing: a sound one, and hostile ones.
 
 use proptest::prelude::*;
-use treadmill_proto::{ActorStats, ActorStatus, Phase, PolicyVersion, RunStatus};
+use treadmill_proto::{ActorStats, ActorStatus, PartTime, Phase, PolicyVersion, RunStatus};
 
 /// Returns a run halfway through, with this many actors.
 pub fn run(name: &str, actors: usize) -> RunStatus {
@@ -75,6 +75,7 @@ prop_compose! {
         actors in prop::collection::vec(actor(), 0..24),
         alarms in prop::collection::vec(names(), 0..6),
         (limit, limit_help) in (names(), names()),
+        parts in prop::collection::vec((names(), numbers()), 0..10),
     ) -> RunStatus {
         RunStatus {
             time_unix_s: floats[0],
@@ -87,6 +88,7 @@ prop_compose! {
             distance_mean_m: known.then_some(floats[6]), velocity_mean_mps: known.then_some(floats[7]),
             resident_bytes: counts[5], accepted: counts[6], duplicate: counts[7], too_old: counts[8],
             vanished: counts[9], malformed: counts[10], quarantined: counts[11], accepted_bytes: counts[12],
+            parts: parts.into_iter().map(|(name, share)| PartTime { name, share }).collect(),
             waits_for_storage: known, has_commands: known, fall_fraction: known.then_some(floats[1]),
             velocity_error_mps: known.then_some(floats[6]), yaw_rate_error_radps: known.then_some(floats[7]),
         }

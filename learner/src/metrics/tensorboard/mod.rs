@@ -6,9 +6,11 @@
 //! - [`histogram`]: counts of values.
 //! - [`texts`]: description of a run as Markdown.
 //! - [`hparams`]: hyperparameters for the comparison of runs.
+//! - [`layout`]: charts of the CUSTOM SCALARS tab.
 
 pub mod histogram;
 pub mod hparams;
+pub mod layout;
 pub mod texts;
 
 use std::fs::{self, File, OpenOptions};
@@ -41,8 +43,9 @@ const DT_FLOAT: i32 = 1;
 const DT_DOUBLE: i32 = 2;
 const DT_STRING: i32 = 7;
 
-/// `DATA_CLASS_TENSOR` of `summary.proto`.
+/// `DATA_CLASS_TENSOR` and `DATA_CLASS_BLOB_SEQUENCE` of `summary.proto`.
 const CLASS_TENSOR: i32 = 2;
+const CLASS_BLOBS: i32 = 3;
 
 /// `SessionLog.START` of `event.proto`.
 const SESSION_START: i32 = 1;
@@ -117,19 +120,42 @@ impl EventWriter {
 
     /// Writes a Markdown text, such as the run's configuration, for TensorBoard's TEXT tab. It applies from `step` on.
     pub fn text(&mut self, step: u64, time_unix_s: f64, tag: &str, text: &str) -> io::Result<()> {
-        let value = Value {
-            tag: tag.to_string(),
-            tensor: Some(Tensor {
-                dtype: DT_STRING,
-                // A single text; TensorBoard would show a list of texts as a table.
-                shape: shape(&[]),
-                string_val: vec![text.as_bytes().to_vec().into()],
-                ..Tensor::default()
-            }),
-            metadata: metadata("text", Vec::new()),
-            ..Value::default()
-        };
-        self.values(step, time_unix_s, vec![value])
+        // A single text; TensorBoard would show a list of texts as a table.
+        self.strings(step, time_unix_s, tag, shape(&[]), vec![text.into()], metadata("text", Vec::new()))
+    }
+
+    /// Writes the charts of the CUSTOM SCALARS tab.
+    pub fn layout(&mut self, step: u64, time_unix_s: f64, has_commands: bool) -> io::Result<()> {
+        let charts = vec![layout::charts(has_commands).to_bytes()];
+        self.strings(step, time_unix_s, layout::TAG, shape(&[]), charts, metadata("custom_scalars", Vec::new()))
+    }
+
+    /// Writes a picture of `width` by `height` pixels, which may move, for the IMAGES tab; `bytes` are those of its file.
+    pub fn picture(
+        &mut self,
+        step: u64,
+        time_unix_s: f64,
+        tag: &str,
+        [width, height]: [u32; 2],
+        bytes: Vec<u8>,
+    ) -> io::Result<()> {
+        let strings = vec![width.to_string().into(), height.to_string().into(), bytes];
+        let of_images = metadata("images", Vec::new()).map(|metadata| Metadata { data_class: CLASS_BLOBS, ..metadata });
+        self.strings(step, time_unix_s, tag, shape(&[3]), strings, of_images)
+    }
+
+    fn strings(
+        &mut self,
+        step: u64,
+        time_unix_s: f64,
+        tag: &str,
+        shape: Option<Shape>,
+        strings: Vec<Vec<u8>>,
+        metadata: Option<Metadata>,
+    ) -> io::Result<()> {
+        let string_val = strings.into_iter().map(Into::into).collect();
+        let tensor = Some(Tensor { dtype: DT_STRING, shape, string_val, ..Tensor::default() });
+        self.values(step, time_unix_s, vec![Value { tag: tag.to_string(), tensor, metadata, ..Value::default() }])
     }
 
     /// Writes the run's row of the HPARAMS tab, unless a file of this folder has it: TensorBoard uses the first.

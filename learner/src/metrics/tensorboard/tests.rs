@@ -38,6 +38,21 @@ fn scalars(values: &[(&str, f64)]) -> Vec<(String, f64)> {
 }
 
 #[test]
+fn a_picture_is_a_tensor_of_its_size_and_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = EventWriter::create(folder.path(), 1.0, "box").unwrap();
+    writer.picture(7, 2.0, "film", [320, 240], b"GIF89a".to_vec()).unwrap();
+    let events = read(&files(folder.path())[0]);
+    let [value] = &events[1].summary.as_ref().unwrap().value[..] else { panic!("one value") };
+    assert_eq!((events[1].step, &*value.tag), (7, "film"));
+    let tensor = value.tensor.as_ref().unwrap();
+    assert_eq!(tensor.string_val, [&b"320"[..], b"240", b"GIF89a"]);
+    assert_eq!(tensor.shape.as_ref().unwrap().dim[0].size, 3);
+    let metadata = value.metadata.as_ref().unwrap();
+    assert_eq!((&*metadata.plugin_data.as_ref().unwrap().plugin_name, metadata.data_class), ("images", 3));
+}
+
+#[test]
 fn a_record_is_framed_as_documented() {
     // The CRC-32C of "123456789" is e3069283 in published tables. Rotated right by 15 bits it is
     // 2507c60d: e3069283 >> 15 = 0001c60d, e3069283 << 17 = 25060000. Plus a282ead8 is c78ab0e5.

@@ -138,7 +138,8 @@ fn serve(
     while !closed.load(Ordering::Relaxed) {
         let pending = server.next(TICK);
         let mut board = lock(board);
-        board.roster.update(feed, Instant::now());
+        let newest = board.status.version.unwrap_or_default();
+        board.roster.update(feed, newest, Instant::now());
         let Some(pending) = pending else { continue };
         if pending.request.command() == Command::Status {
             pending.answer(&board.run, &board.reply(true, String::new()));
@@ -158,11 +159,10 @@ fn lock(board: &Mutex<StatusBoard>) -> MutexGuard<'_, StatusBoard> {
 impl StatusBoard {
     /// Returns a reply with the present status.
     fn reply(&self, done: bool, text: String) -> ControlReply {
-        let newest = self.status.version.unwrap_or_default();
         let mut status = RunStatus {
             time_unix_s: machine::time_unix_s(),
             since_update_s: self.updated.elapsed().as_secs_f64(),
-            actors: self.roster.actors(newest, &self.quarantined, Instant::now()),
+            actors: self.roster.actors(&self.quarantined, Instant::now()),
             ..self.status.clone()
         };
         if let Some(alarm) = self.pending.alarm(Instant::now()) {

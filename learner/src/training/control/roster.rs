@@ -16,8 +16,15 @@ const ACTORS_MAX: usize = 16_384;
 /// Last statistics of each actor, and when they came.
 pub struct Roster {
     alive: AliveView,
-    last_stats: BTreeMap<String, (ActorStats, Instant)>,
+    last_stats: BTreeMap<String, Contact>,
     pruned: Instant,
+}
+
+/// Statistics of an actor, when they came, and the newest version then: lag that grew since says nothing about the actor.
+struct Contact {
+    stats: ActorStats,
+    at: Instant,
+    newest: PolicyVersion,
 }
 
 impl Roster {
@@ -26,35 +33,34 @@ impl Roster {
         Self { alive, last_stats: BTreeMap::new(), pruned: Instant::now() }
     }
 
-    /// Takes the actors' newest statistics.
-    pub fn update(&mut self, feed: &StatsFeed, now: Instant) {
+    /// Takes the actors' newest statistics; `newest` is the newest version.
+    pub fn update(&mut self, feed: &StatsFeed, newest: PolicyVersion, now: Instant) {
         // The training thread has its own feed, and logs malformed messages.
         for stats in feed.take().flatten() {
             if self.last_stats.len() < ACTORS_MAX || self.last_stats.contains_key(&stats.actor) {
-                self.last_stats.insert(stats.actor.clone(), (stats, now));
+                self.last_stats.insert(stats.actor.clone(), Contact { stats, at: now, newest });
             }
         }
         // Rarely, because this visits every actor.
         if now.duration_since(self.pruned) > KEPT {
-            self.last_stats.retain(|_, (_, at)| now.duration_since(*at) < KEPT);
+            self.last_stats.retain(|_, contact| now.duration_since(contact.at) < KEPT);
             self.pruned = now;
         }
     }
 
-    /// Returns the actors that are alive, in quarantine, or sent statistics lately. Lag is counted from `newest`.
-    pub fn actors(&self, newest: PolicyVersion, quarantined: &[String], now: Instant) -> Vec<ActorStatus> {
-        actor_statuses(&self.alive.actors(), &self.last_stats, newest, quarantined, now)
+    /// Returns the actors that are alive, in quarantine, or sent statistics lately.
+    pub fn actors(&self, quarantined: &[String], now: Instant) -> Vec<ActorStatus> {
+        actor_statuses(&self.alive.actors(), &self.last_stats, quarantined, now)
     }
 }
 
 fn actor_statuses(
     alive: &BTreeSet<String>,
-    last_stats: &BTreeMap<String, (ActorStats, Instant)>,
-    newest: PolicyVersion,
+    last_stats: &BTreeMap<String, Contact>,
     quarantined: &[String],
     now: Instant,
 ) -> Vec<ActorStatus> {
-    let recent = last_stats.iter().filter(|(_, (_, at))| now.duration_since(*at) < KEPT).map(|(name, _)| name.as_str());
+    let recent = last_stats.iter().filter(|(_, of)| now.duration_since(of.at) < KEPT).map(|(name, _)| name.as_str());
     let names: BTreeSet<&str> =
         alive.iter().map(String::as_str).chain(recent).chain(quarantined.iter().map(String::as_str)).collect();
     names
@@ -62,17 +68,17 @@ fn actor_statuses(
         .take(ACTORS_MAX)
         .map(|name| {
             let last = last_stats.get(name);
-            let version = last.and_then(|(stats, _)| stats.version);
+            let versions = last.and_then(|of| Some((of.stats.version?, of.newest)));
             ActorStatus {
                 name: name.to_string(),
                 alive: alive.contains(name),
-                since_contact_s: last.map(|(_, at)| now.duration_since(*at).as_secs_f64()),
+                since_contact_s: last.map(|of| now.duration_since(of.at).as_secs_f64()),
                 quarantined: quarantined.iter().any(|quarantined| quarantined == name),
                 // Lag is unknown for a version of an earlier learner.
-                lag_versions: version
-                    .filter(|version| version.incarnation == newest.incarnation)
-                    .map(|version| newest.number.saturating_sub(version.number)),
-                stats: last.map(|(stats, _)| stats.clone()),
+                lag_versions: versions
+                    .filter(|(version, newest)| version.incarnation == newest.incarnation)
+                    .map(|(version, newest)| newest.number.saturating_sub(version.number)),
+                stats: last.map(|of| of.stats.clone()),
             }
         })
         .collect()
@@ -91,16 +97,16 @@ mod tests {
             version: Some(version(number)),
             ..ActorStats::default()
         };
-        let last_stats: BTreeMap<_, _> = [("alive", 10), ("gone", 9), ("forgotten", 3)]
+        let mut last_stats: BTreeMap<_, _> = [("alive", 10), ("gone", 9), ("forgotten", 3)]
             .into_iter()
             .map(|(name, number)| {
                 let at = if name == "forgotten" { begun } else { begun + KEPT };
-                (name.to_string(), (stats(name, number), at))
+                (name.to_string(), Contact { stats: stats(name, number), at, newest: version(12) })
             })
             .collect();
         let alive = ["alive", "new"].map(String::from).into();
         let now = begun + KEPT + Duration::from_secs(1);
-        let statuses = actor_statuses(&alive, &last_stats, version(12), &["banned".to_string()], now);
+        let statuses = actor_statuses(&alive, &last_stats, &["banned".to_string()], now);
         let names: Vec<&str> = statuses.iter().map(|actor| actor.name.as_str()).collect();
         assert_eq!(names, ["alive", "banned", "gone", "new"]);
         assert_eq!(
@@ -110,7 +116,8 @@ mod tests {
         assert!(statuses[1].quarantined && !statuses[1].alive);
         assert_eq!((statuses[2].alive, statuses[2].lag_versions), (false, Some(3)));
         assert_eq!((statuses[3].alive, statuses[3].lag_versions, statuses[3].since_contact_s), (true, None, None));
-        let successor = PolicyVersion { incarnation: 8, number: 12, epoch: 0 };
-        assert_eq!(actor_statuses(&alive, &last_stats, successor, &[], now)[0].lag_versions, None);
+        let of_successor = PolicyVersion { incarnation: 8, number: 12, epoch: 0 };
+        last_stats.get_mut("alive").unwrap().newest = of_successor;
+        assert_eq!(actor_statuses(&alive, &last_stats, &[], now)[0].lag_versions, None);
     }
 }
