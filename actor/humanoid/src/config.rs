@@ -3,7 +3,7 @@
 pub use treadmill_settings::{
     ChosenTask, ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind,
     REWARD_TERMS, RandomisationConfig, RewardFunctions, RewardsConfig, Section, VelocityConfig,
-    environment::is_task_name,
+    environment::{HEADING_GAIN, is_task_name},
 };
 
 /// Version of the simulation. Raised whenever the same state, action and settings give another next state, observation,

@@ -12,7 +12,7 @@ pub use self::env::{ChosenTask, EnvConfig, EnvObservation, EnvTask, is_task_name
 pub use self::ground::{GroundConfig, GroundKind};
 pub use self::randomisation::RandomisationConfig;
 pub use self::rewards::{REWARD_TERMS, RewardFunctions, RewardsConfig};
-pub use self::velocity::VelocityConfig;
+pub use self::velocity::{HEADING_GAIN, VelocityConfig};
 use super::{ConfigError, Section, SectionDoc, refuse, show};
 
 /// Settings of one environment.

@@ -45,3 +45,62 @@ section! {
         command_curriculum: bool = false, "true or false" => |_| true;
     }
 }
+
+/// Parts into which a range of commands is cut for a mean.
+const PARTS: u32 = 16;
+/// Yaw rate per error of the heading (1/s).
+pub const HEADING_GAIN: f64 = 0.5;
+
+impl VelocityConfig {
+    /// Returns the mean commanded speed (m/s): (1 − `standing_share`) · mean of √(x² + y²), with x and y uniform in their
+    /// ranges. A robot that only stands has this velocity error.
+    #[must_use]
+    pub fn mean_speed_mps(&self) -> f64 {
+        let speeds = middles(self.lin_vel_x_mps).flat_map(|x| middles(self.lin_vel_y_mps).map(move |y| x.hypot(y)));
+        speeds.sum::<f64>() / f64::from(PARTS * PARTS) * (1.0 - self.standing_share)
+    }
+
+    /// Returns the mean size of the commanded yaw rate of a robot that only stands (rad/s), which is its yaw rate error:
+    /// (1 − `standing_share`) · mean of |w|. With a heading, w is [`HEADING_GAIN`] · e within the range, where the heading's
+    /// error e is uniform from −π to π; without one, w is uniform in its range.
+    #[must_use]
+    pub fn mean_yaw_rate_radps(&self) -> f64 {
+        let [low, high] = self.ang_vel_z_radps;
+        let mean = |rates: &mut dyn Iterator<Item = f64>| rates.map(f64::abs).sum::<f64>() / f64::from(PARTS);
+        let half_turn = std::f64::consts::PI;
+        let turned = mean(&mut middles([-half_turn, half_turn]).map(|error| (HEADING_GAIN * error).clamp(low, high)));
+        let given = mean(&mut middles(self.ang_vel_z_radps));
+        (given + (turned - given) * self.heading_share) * (1.0 - self.standing_share)
+    }
+}
+
+/// Returns the middles of the parts of a range.
+fn middles([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..PARTS).map(move |part| low + (high - low) * (f64::from(part) + 0.5) / f64::from(PARTS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_standing_robot_has_the_mean_of_the_commands_as_its_error() {
+        let config = |x, y, yaw, standing_share, heading_share| VelocityConfig {
+            lin_vel_x_mps: x,
+            lin_vel_y_mps: y,
+            ang_vel_z_radps: yaw,
+            standing_share,
+            heading_share,
+            ..VelocityConfig::default()
+        };
+        let forward = config([0.0, 1.0], [0.0, 0.0], [-0.5, 1.5], 0.2, 0.0);
+        assert!((forward.mean_speed_mps() - 0.8 * 0.5).abs() < 1e-12);
+        // A quarter of the rates is negative: 1/4 · 0.25 + 3/4 · 0.75 = 0.625.
+        assert!((forward.mean_yaw_rate_radps() - 0.8 * 0.625).abs() < 1e-12);
+        // The mean distance from the middle of a square of side 2 is (√2 + ln(1 + √2)) / 3 = 0.7652.
+        let around = config([-1.0, 1.0], [-1.0, 1.0], [-2.0, 2.0], 0.0, 1.0);
+        assert!((around.mean_speed_mps() - 0.7652).abs() < 2e-3, "{}", around.mean_speed_mps());
+        // Half of a mean heading error of π/2.
+        assert!((around.mean_yaw_rate_radps() - std::f64::consts::FRAC_PI_4).abs() < 1e-12);
+    }
+}

@@ -2,14 +2,12 @@
 
 use rand::RngExt;
 
-use crate::config::VelocityConfig;
+use crate::config::{HEADING_GAIN, VelocityConfig};
 use crate::randomisation::{stream, uniform};
 
 /// Norm of the three numbers of a command (m/s, m/s and rad/s) below which it says: stand. Unitree's unitree_rl_mjlab feeds
 /// the gait's phase (0, 0) below the same norm.
 pub const STANDING_COMMAND: f64 = 0.1;
-/// Yaw rate per error of the heading (1/s).
-pub const HEADING_GAIN: f64 = 0.5;
 
 /// Velocity that the robot is asked to have, in its heading frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

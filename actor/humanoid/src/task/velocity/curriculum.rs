@@ -216,14 +216,7 @@ impl Curriculum {
 
 /// Returns the way that an episode commands in the mean (m); `None` where its commands are turns.
 fn mean_way_m(config: &EnvironmentConfig) -> Option<f64> {
-    const PARTS: u32 = 16;
-    let velocity = &config.velocity;
-    let middles = |[low, high]: [f64; 2]| {
-        (0..PARTS).map(move |part| low + (high - low) * (f64::from(part) + 0.5) / f64::from(PARTS))
-    };
-    let speeds = middles(velocity.lin_vel_x_mps).flat_map(|x| middles(velocity.lin_vel_y_mps).map(move |y| x.hypot(y)));
-    let mean_mps = speeds.sum::<f64>() / f64::from(PARTS * PARTS) * (1.0 - velocity.standing_share);
-    let way_m = mean_mps * f64::from(config.env.max_episode_steps) * config.env.control_step_s;
+    let way_m = config.velocity.mean_speed_mps() * f64::from(config.env.max_episode_steps) * config.env.control_step_s;
     (way_m >= TURNS_M).then_some(way_m)
 }
 

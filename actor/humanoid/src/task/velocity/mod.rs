@@ -27,7 +27,7 @@ use std::f64::consts::FRAC_PI_2;
 use rand::RngExt;
 
 use self::command::Drawn;
-pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
+pub use self::command::{Command, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::{Layout, View};
@@ -39,6 +39,7 @@ use self::scan::{SCAN_POINTS, ground_around};
 pub use self::standing::Calm;
 use self::standing::Standing;
 use super::{Difficulty, ObservationTerm, Reached, Step, StepEvaluation, Task};
+pub use crate::config::HEADING_GAIN;
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
