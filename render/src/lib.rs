@@ -1,8 +1,8 @@
 //! Pictures of a humanoid, without a window or a GPU.
 //!
 //! Triangles are drawn into a grid of samples, four for each pixel, and once more as the lamp sees them, for shadows. A
-//! picture of 640 × 480 pixels takes 60 ms on one core for a robot of 390,000 triangles, and 45 ms for one of capsules. Pictures
-//! are the same on every machine.
+//! picture of 640 × 480 pixels takes about 60 ms on one core for a robot of 390,000 triangles, and 45 ms for one of
+//! capsules. Pictures are the same on every machine.
 //!
 //! # Layout
 //! - [`look`]: coloured surfaces of a robot: meshes of its file, or its shapes.

@@ -30,7 +30,7 @@ const RADIUS_M: [f64; 2] = [0.012, 0.07];
 
 /// Surface on a body, in the body's frame.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct RobotPart {
     /// Index of the body.
     pub body: usize,
     /// Surface.
@@ -44,7 +44,7 @@ pub struct Part {
 /// Returns the meshes of a robot's file; if they are of another robot, or there are none, its colliding shapes. A body
 /// without any is a capsule to each body that hangs on it, and at the end of a limb one to its centre of mass.
 #[must_use]
-pub fn parts(model: &Model, visuals: &[VisualMesh]) -> Vec<Part> {
+pub fn parts(model: &Model, visuals: &[VisualMesh]) -> Vec<RobotPart> {
     let colours = colours(model);
     let of_file = |visual: &VisualMesh| {
         let (index, link) = model.links.iter().enumerate().find(|(_, link)| link.name == visual.link)?;
@@ -55,15 +55,15 @@ pub fn parts(model: &Model, visuals: &[VisualMesh]) -> Vec<Part> {
         } else {
             iter::zip(colour, side).map(tint).collect::<Vec<_>>().try_into().ok()?
         };
-        Some(Part { body: link.body, mesh: placed(model, link, visual), colour, tinted })
+        Some(RobotPart { body: link.body, mesh: placed(model, link, visual), colour, tinted })
     };
-    let found: Vec<Part> = visuals.iter().filter_map(of_file).collect();
+    let found: Vec<RobotPart> = visuals.iter().filter_map(of_file).collect();
     if !found.is_empty() {
         return found;
     }
     let part = |body: usize, shape: &Geometry, link: Option<usize>| {
         let colour = link.map_or(MIDDLE, |link| colours[link]);
-        Part { body, mesh: TriangleMesh::of(shape), colour, tinted: colour }
+        RobotPart { body, mesh: TriangleMesh::of(shape), colour, tinted: colour }
     };
     let mut parts = Vec::new();
     for (index, body) in model.bodies.iter().enumerate() {
@@ -147,7 +147,7 @@ impl Look {
     #[must_use]
     pub fn of(model: &Model, visuals: &[VisualMesh]) -> Self {
         let detail_m = (DETAIL * model.nominal_position()[2]).max(DETAIL_MIN_M) as f32;
-        let skin = |part: Part| (part.body, Skin::of(&part.mesh, detail_m), part.tinted);
+        let skin = |part: RobotPart| (part.body, Skin::of(&part.mesh, detail_m), part.tinted);
         Self { skins: parts(model, visuals).into_iter().map(skin).collect() }
     }
 }

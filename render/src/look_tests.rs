@@ -30,7 +30,7 @@ fn bodies_without_shape_are_capsules_to_the_next_ones() {
     // Two for the trunk, one for each thigh, and the spheres.
     let bodies: Vec<usize> = parts.iter().map(|part| part.body).collect();
     assert_eq!(bodies, [0, 0, 1, 2, 3, 4]);
-    let lowest_m = |part: &Part| part.mesh.corners_m.iter().map(|corner| corner[2]).fold(f32::INFINITY, f32::min);
+    let lowest_m = |part: &RobotPart| part.mesh.corners_m.iter().map(|corner| corner[2]).fold(f32::INFINITY, f32::min);
     // A thigh of 2 kg and 0.4 m is 0.04 m thick, and ends at the knee.
     assert!((lowest_m(&parts[2]) + 0.4 + 0.0399).abs() < 1e-3, "{}", lowest_m(&parts[2]));
 }

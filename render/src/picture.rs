@@ -7,7 +7,7 @@ use crate::{
     camera::Camera,
     look::Colour,
     raster::Samples,
-    scene::{Placed, Scene},
+    scene::{PlacedSkin, Scene},
 };
 
 /// Samples per pixel in each direction.
@@ -110,7 +110,7 @@ impl Seen {
         let mut found = vec![([0; 3], 0); width * height];
         let scale = height as f32 / (2.0 * camera.half_height as f32);
         let (axes, eye) = (camera.axes.map(|axis| axis.cast()), camera.eye.coords.cast());
-        for (index, Placed { skin, pose, .. }) in scene.placed.iter().enumerate() {
+        for (index, PlacedSkin { skin, pose, .. }) in scene.placed.iter().enumerate() {
             let project = |point: Vector3<f32>| {
                 let near = if point.z > NEAREST_M { 1.0 / point.z } else { f32::NAN };
                 Vector3::new(
@@ -154,7 +154,7 @@ impl Lit {
         let axes = [right, to_lamp.cross(&right), to_lamp];
         let solid = scene.placed.iter().filter(|placed| placed.is_solid);
         let seen = solid.map(|placed| (placed, placed.skin.seen(&placed.pose, &axes, &Vector3::zeros())));
-        let corners: Vec<(&Placed, Vec<Vector3<f32>>)> = seen.collect();
+        let corners: Vec<(&PlacedSkin, Vec<Vector3<f32>>)> = seen.collect();
         let all = corners.iter().flat_map(|(_, corners)| corners);
         let around = all.fold(None, |around: Option<[Vector3<f32>; 2]>, corner| {
             Some(around.map_or([*corner; 2], |[low, high]| [low.inf(corner), high.sup(corner)]))

@@ -19,7 +19,7 @@ const ARROW_RADIUS_M: f64 = 0.015;
 
 /// Surface in the world.
 #[derive(Clone, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedSkin {
     pub skin: Arc<Skin>,
     pub pose: Isometry3<f32>,
     /// `None` is the ground, whose colour depends on the place.
@@ -34,7 +34,7 @@ const DETAIL_M: f32 = 1e-4;
 /// Coloured surfaces above the ground.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    pub(crate) placed: Vec<Placed>,
+    pub(crate) placed: Vec<PlacedSkin>,
     /// How many of them are the robot; they are the first ones.
     robot: usize,
     field: Option<Arc<HeightField>>,
@@ -57,17 +57,22 @@ impl Scene {
     #[must_use]
     pub fn with(look: &Look, physics: &Physics) -> Self {
         let poses: Vec<Isometry3<f32>> = physics.body_motions().map(|motion| motion.pose.cast()).collect();
-        let place = |(body, skin, colour): &(usize, Arc<Skin>, Colour)| Placed {
+        let place = |(body, skin, colour): &(usize, Arc<Skin>, Colour)| PlacedSkin {
             skin: skin.clone(),
             pose: poses[*body],
             colour: Some(*colour),
             is_solid: true,
         };
-        let mut placed: Vec<Placed> = look.skins.iter().map(place).collect();
+        let mut placed: Vec<PlacedSkin> = look.skins.iter().map(place).collect();
         let robot = placed.len();
         let field = physics.model().ground.height_field.clone();
         let ground = field.as_deref().map(|field| Skin::of(&TriangleMesh::of_field(field), DETAIL_M));
-        placed.extend(ground.map(|skin| Placed { skin, pose: Isometry3::identity(), colour: None, is_solid: false }));
+        placed.extend(ground.map(|skin| PlacedSkin {
+            skin,
+            pose: Isometry3::identity(),
+            colour: None,
+            is_solid: false,
+        }));
         Self { placed, robot, field }
     }
 
@@ -77,7 +82,7 @@ impl Scene {
         let to_m = from_m + Vector3::new(along_m[0], along_m[1], 0.0);
         let shaft = Geometry::Capsule { from_m, to_m, radius_m: ARROW_RADIUS_M };
         let tip = Geometry::Sphere { centre_m: to_m, radius_m: 2.0 * ARROW_RADIUS_M };
-        self.placed.extend([shaft, tip].map(|part| Placed {
+        self.placed.extend([shaft, tip].map(|part| PlacedSkin {
             skin: Skin::of(&TriangleMesh::of(&part), DETAIL_M),
             pose: Isometry3::identity(),
             colour: Some(colour),

@@ -11,6 +11,8 @@ use crate::{Camera, Picture, look::Colour, picture::byte_of};
 pub const INK: Colour = [0.12, 0.14, 0.17];
 /// Least height of text that can be read (pixels); smaller one is left out.
 const HEIGHT_MIN: f64 = 7.0;
+/// Height of text in small pictures (pixels).
+const HEIGHT_LEAST: f64 = 9.0;
 
 /// The font is embedded, because a machine without a screen often has none.
 static FONT: LazyLock<FontRef<'static>> =
@@ -38,7 +40,7 @@ impl Picture {
     /// Height of text that fits to the picture's size (pixels).
     #[must_use]
     pub fn text_height(&self) -> f64 {
-        f64::from(self.height.min(self.width)) / 32.0
+        (f64::from(self.height.min(self.width)) / 32.0).max(HEIGHT_LEAST)
     }
 
     /// Writes a line of text at the upper edge, smaller if it would not fit.

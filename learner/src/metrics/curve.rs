@@ -5,32 +5,24 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontDesc, FontStyle, register_font};
+use plotters::style::{FontStyle, register_font};
 use time::OffsetDateTime;
 use treadmill_config::{ChosenTask, Config};
 use treadmill_runtime::atomic_file;
 
-use super::curve_points::{CurvePoints, Point};
+use super::curve_marks::{Area, DrawError, FONT, Key, LABEL, SCALE, WIDTH, dashed, draw_legend, font, reduced, scaled};
+use super::curve_points::{CurvePoint, CurvePoints};
 use super::table::format_number;
 
-/// Width of the image, height of a panel, and height of the line above them, in pixels.
-const WIDTH: u32 = 1200;
+/// Height of a panel, and of the line above them, in pixels.
 const PANEL_HEIGHT: u32 = 380;
 const HEADER_HEIGHT: u32 = 60;
-/// Pixels that are drawn for each pixel of the image, in each direction: the plotter's own lines have steps.
-const SCALE: u32 = 2;
-
-/// Name of the embedded font in the plotter.
-const FONT: &str = "DejaVu Sans";
-
 /// Most points that are drawn as dots: a line alone would not show that there are few.
 const DOTS_MAX: usize = 60;
 
 const TITLE: RGBColor = RGBColor(40, 40, 40);
-const LABEL: RGBColor = RGBColor(90, 90, 90);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 const BLUE: RGBColor = RGBColor(31, 119, 180);
 const GREEN: RGBColor = RGBColor(44, 140, 60);
@@ -191,9 +183,6 @@ fn encode_png(rgb: &[u8], size: (u32, u32)) -> Result<Vec<u8>, png::EncodingErro
     Ok(bytes)
 }
 
-type DrawError = DrawingAreaErrorKind<<BitMapBackend<'static> as DrawingBackend>::ErrorType>;
-type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
-
 /// Image of a run.
 struct Image<'a> {
     panels: &'a [Panel],
@@ -247,7 +236,7 @@ impl Image<'_> {
         let panel = &self.panels[index];
         let [training, evaluated] = [0, 1].map(|kind| &*self.points.series[2 * index + kind]);
         let standing = self.facts.standing_errors.and_then(|errors| errors.get(index.checked_sub(1)?).copied());
-        let all: Vec<Point> = training.iter().chain(evaluated).copied().collect();
+        let all: Vec<CurvePoint> = training.iter().chain(evaluated).copied().collect();
         let most = self.points.series.iter().flatten().map(|point| point.0).fold(0.0, f64::max);
         let steps = 0.0..if most > 0.0 { most } else { 1.0 };
         let values = value_range(&all, standing.filter(|_| !all.is_empty()), panel.from_zero);
@@ -286,8 +275,9 @@ impl Image<'_> {
             let tag = panel.tags.into_iter().flatten().next().unwrap_or_default();
             chart.draw_series([Text::new(format!("no points of {tag} yet"), middle, style)])?;
         }
-        let line =
-            |points: &[Point], width: u32| LineSeries::new(points.to_vec(), panel.colour.stroke_width(width * SCALE));
+        let line = |points: &[CurvePoint], width: u32| {
+            LineSeries::new(points.to_vec(), panel.colour.stroke_width(width * SCALE))
+        };
         if !training.is_empty() {
             chart.draw_series(line(training, 2))?;
         } else {
@@ -312,65 +302,7 @@ impl Image<'_> {
     }
 }
 
-/// Mark in a legend.
-enum Key {
-    Line,
-    Ring,
-    Dashes,
-}
-
-/// Draws marks and their names, from the right edge of a panel to the left.
-fn draw_legend<'a>(
-    entries: impl DoubleEndedIterator<Item = (Key, &'a str, bool)>,
-    colour: RGBColor,
-    area: &Area<'_>,
-) -> Result<(), DrawError> {
-    let mut right = (WIDTH - 36) as i32;
-    for (key, name, _) in entries.rev() {
-        let style = font(17).color(&LABEL).pos(Pos::new(HPos::Right, VPos::Center));
-        area.draw(&Text::new(name, scaled(right, 26), style))?;
-        right -= 8 * name.chars().count() as i32 + 10;
-        let line = |from: i32, to: i32| vec![scaled(from, 26), scaled(to, 26)];
-        match key {
-            Key::Line => area.draw(&PathElement::new(line(right - 30, right), colour.stroke_width(2 * SCALE)))?,
-            Key::Dashes => {
-                for from in [right - 28, right - 12] {
-                    area.draw(&PathElement::new(line(from, from + 10), LABEL.stroke_width(2 * SCALE)))?;
-                }
-            }
-            Key::Ring => {
-                for (radius, colour) in [(6, colour), (4, WHITE)] {
-                    area.draw(&Circle::new(scaled(right - 8, 26), radius * SCALE, colour.filled()))?;
-                }
-            }
-        }
-        right -= 48;
-    }
-    Ok(())
-}
-
-fn dashed(ends: &[Point; 2], colour: RGBColor, width: u32) -> DashedLineSeries<std::array::IntoIter<Point, 2>, u32> {
-    DashedLineSeries::new(*ends, 8 * SCALE, 6 * SCALE, colour.stroke_width(width * SCALE))
-}
-
-fn scaled(column: i32, row: i32) -> (i32, i32) {
-    (column * SCALE as i32, row * SCALE as i32)
-}
-
-/// Returns the means of squares of `SCALE` pixels in each direction.
-fn reduced(large: &[u8], width: usize) -> Vec<u8> {
-    let (scale, row_bytes) = (SCALE as usize, 3 * width);
-    let rows = large.chunks_exact(row_bytes * scale);
-    let mean = |rows: &[u8], at: usize| {
-        let column = at / 3 * scale;
-        let parts = (0..scale * scale)
-            .map(|part| usize::from(rows[part / scale * row_bytes + (column + part % scale) * 3 + at % 3]));
-        (parts.sum::<usize>() / (scale * scale)) as u8
-    };
-    rows.flat_map(|rows| (0..row_bytes / scale).map(move |at| mean(rows, at))).collect()
-}
-
-fn caption(panel: &Panel, points: &[Point], are_evaluated: bool) -> String {
+fn caption(panel: &Panel, points: &[CurvePoint], are_evaluated: bool) -> String {
     let of = if are_evaluated && panel.tags[0].is_some() { "evaluated: " } else { "" };
     match (points.last(), points.iter().map(|point| point.1).reduce(panel.better)) {
         (Some(last), Some(best)) => {
@@ -381,7 +313,7 @@ fn caption(panel: &Panel, points: &[Point], are_evaluated: bool) -> String {
 }
 
 /// Returns the range of the vertical axis: all points, another value, and a margin, also for a single point or a constant.
-pub(super) fn value_range(points: &[Point], other: Option<f64>, from_zero: bool) -> Range<f64> {
+pub(super) fn value_range(points: &[CurvePoint], other: Option<f64>, from_zero: bool) -> Range<f64> {
     if points.is_empty() {
         return 0.0..1.0;
     }
@@ -402,8 +334,4 @@ fn axis_label(value: f64, span: f64) -> String {
     let label = format!("{value:.*}", decimals as usize);
     let label = if label.contains('.') { label.trim_end_matches('0').trim_end_matches('.') } else { &label };
     if label == "-0" { "0".to_string() } else { label.to_string() }
-}
-
-fn font(size: u32) -> FontDesc<'static> {
-    (FONT, size * SCALE).into_font()
 }

@@ -13,13 +13,13 @@ const RAN_TAG: &str = "time/time_elapsed";
 const RESUME_S: f64 = 0.5;
 
 /// Millions of environment steps, and a value.
-pub type Point = (f64, f64);
+pub type CurvePoint = (f64, f64);
 
 /// Metrics of a run.
 #[derive(Debug, Default, PartialEq)]
 pub struct CurvePoints {
     /// Points of each tag, in the order of the tags.
-    pub series: Vec<Vec<Point>>,
+    pub series: Vec<Vec<CurvePoint>>,
     /// Name of the run; empty without a metric.
     pub run: String,
     /// Time of the last metric (s since 1970).

@@ -152,7 +152,7 @@ fn strokes_have_soft_edges() {
     let slope: String = (0..100).map(|step| line(TAGS[0], step * 10_000, &format!("{step}"))).collect();
     let (.., pixels) = image(&slope, &CurveFacts::default());
     // Blue of the curve, and its mixtures with white, which a stroke without soft edges lacks.
-    let blues = pixels.as_chunks::<3>().0.iter().filter(|[red, _, blue]| *blue > *red + 20);
-    let (full, soft): (Vec<_>, Vec<_>) = blues.partition(|pixel| **pixel == [31, 119, 180]);
+    let blues = pixels.as_chunks::<3>().0.iter().copied().filter(|[red, _, blue]| *blue > red.saturating_add(20));
+    let (full, soft): (Vec<[u8; 3]>, Vec<[u8; 3]>) = blues.partition(|pixel| *pixel == [31, 119, 180]);
     assert!(full.len() > 500 && soft.len() > full.len() / 4, "{} {}", full.len(), soft.len());
 }

@@ -13,13 +13,15 @@
 //! - [`history`]: [`History`], return and distance over the run in few points.
 //! - [`sparkline`]: a curve in one line of text.
 //! - [`prometheus`]: [`PrometheusMetrics`], the newest values in Prometheus's text format.
-//! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`; `curve_points`: what it shows.
+//! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
+//! - `curve_points`: what the curve shows; `curve_marks`: marks, legends and soft edges.
 //! - [`curve_thread`]: [`CurveThread`], which draws the curve at intervals during training.
 //!
 //! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
 
 pub mod catalogue;
 pub mod curve;
+mod curve_marks;
 mod curve_points;
 pub mod curve_thread;
 mod efficiency;

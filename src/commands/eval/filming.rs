@@ -57,8 +57,8 @@ const FOLLOW_S: f64 = 0.5;
 const BESIDE: [f64; 3] = [1.3, -3.1, 0.6];
 /// Share of the picture's height that a standing robot fills.
 const FILLED: f64 = 0.5;
-/// Distance of the robot's middle from that of the picture, as a share of its height, from which the camera moves up or down:
-/// the ground stands still in the picture while the robot bobs.
+/// Share of the robot's height that its middle is from that of the picture before the camera moves up or down: the ground
+/// stands still in the picture while the robot bobs.
 const LEVEL: f64 = 0.03;
 /// Metres to either side of the robot at which the ground has numbers.
 const NUMBERED_M: i64 = 8;
