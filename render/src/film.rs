@@ -1,6 +1,6 @@
 //! Encoding of pictures as GIF and PNG.
 
-use std::{collections::HashMap, io::Write};
+use std::{collections::HashMap, io::Write, iter};
 
 use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
@@ -32,6 +32,8 @@ const COLOURS: usize = 255;
 const TRANSPARENT: u8 = 255;
 /// Sampling factor of the colour quantiser, from 1 (all pixels) to 30.
 const SAMPLING: i32 = 3;
+/// Greatest difference of a pixel, in any of its three colours, that is not written.
+const CHANGE_MAX: u8 = 5;
 /// Unit of time in a GIF.
 const TICKS_PER_S: f64 = 100.0;
 
@@ -48,6 +50,7 @@ struct Encoding<W: Write> {
     encoder: Encoder<W>,
     size: (u16, u16),
     colours: NeuQuant,
+    palette: Vec<[u8; 3]>,
     indices: HashMap<[u8; 3], u8>,
     previous: Vec<u8>,
 }
@@ -101,7 +104,8 @@ impl<W: Write> Encoding<W> {
         palette.resize((COLOURS + 1) * 3, 0);
         let mut encoder = Encoder::new(out, size.0, size.1, &palette)?;
         encoder.set_repeat(Repeat::Infinite)?;
-        Ok(Self { encoder, size, colours, indices: HashMap::new(), previous: Vec::new() })
+        let palette = palette.as_chunks::<3>().0.to_vec();
+        Ok(Self { encoder, size, colours, palette, indices: HashMap::new(), previous: Vec::new() })
     }
 
     fn write(&mut self, picture: &Picture, delay: u16) -> Result<(), FilmError> {
@@ -109,7 +113,14 @@ impl<W: Write> Encoding<W> {
         let mut nearest = |rgb: &[u8; 3]| {
             *indices.entry(*rgb).or_insert_with(|| colours.index_of(&[rgb[0], rgb[1], rgb[2], 255]) as u8)
         };
-        let current: Vec<u8> = picture.rgb.as_chunks::<3>().0.iter().map(&mut nearest).collect();
+        let pixels = picture.rgb.as_chunks::<3>().0;
+        let current: Vec<u8> = match self.previous.is_empty() {
+            true => pixels.iter().map(&mut nearest).collect(),
+            // A colour that hardly changes stays: that makes files smaller.
+            false => iter::zip(pixels, &self.previous)
+                .map(|(rgb, before)| if near(rgb, self.palette[usize::from(*before)]) { *before } else { nearest(rgb) })
+                .collect(),
+        };
         let (width, height) = self.size;
         let is_first = self.previous.is_empty();
         let changed = |index: usize| is_first || self.previous[index] != current[index];
@@ -134,6 +145,10 @@ impl<W: Write> Encoding<W> {
         self.previous = current;
         Ok(())
     }
+}
+
+fn near(one: &[u8; 3], other: [u8; 3]) -> bool {
+    iter::zip(one, other).all(|(one, other)| one.abs_diff(other) <= CHANGE_MAX)
 }
 
 /// Encodes a picture as the bytes of a PNG file.

@@ -30,11 +30,31 @@ fn a_decoded_gif_shows_its_pictures_with_the_right_delays() {
             }
         }
         let largest = shown.iter().zip(&picture.rgb).map(|(shown, original)| shown.abs_diff(*original)).max();
-        assert!(largest <= Some(4), "colours differ by {largest:?}");
+        assert!(largest <= Some(CHANGE_MAX), "colours differ by {largest:?}");
     }
     assert!(decoder.read_next_frame().unwrap().is_none());
     // A thirtieth of a second is not a whole number of hundredths; the sum of delays is right.
     assert_eq!(delays, [3, 4, 3, 3]);
+}
+
+#[test]
+fn small_changes_are_not_written_and_do_not_add_up() {
+    let shade = |bright: u8| picture(|_, row| [if row == 0 { 200 } else { bright }; 3]);
+    let shown = |brights: &[u8]| {
+        let mut gif = Gif::new(Vec::new(), 10.0);
+        brights.iter().for_each(|bright| gif.add(&shade(*bright)).unwrap());
+        let bytes = gif.finish().unwrap();
+        let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+        let mut heights = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            heights.push(frame.height);
+        }
+        heights
+    };
+    // A frame without change has one row.
+    assert_eq!(shown(&[100, 100 + CHANGE_MAX - 1]), [6, 1]);
+    // The palette has only the colours of the first picture, and what differs from them much.
+    assert_eq!(shown(&[100, 103, 106, 190]), [6, 1, shown(&[100, 106])[1], 5]);
 }
 
 #[test]

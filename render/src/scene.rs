@@ -1,51 +1,79 @@
-//! Coloured shapes of a body, at their poses.
+//! Coloured surfaces in the world.
+
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3, Vector3};
-use treadmill_humanoid::{Physics, model::Geometry};
-
-use crate::{
-    solid::{Ball, Hit, Ray, Solid},
-    surface::Surface,
+use treadmill_humanoid::{
+    Physics,
+    model::{Geometry, HeightField},
 };
 
-/// Red, green and blue, each from 0 to 1.
-pub type Colour = [f64; 3];
+use crate::{
+    TriangleMesh,
+    look::{Colour, Look},
+    raster::Skin,
+};
 
-/// Limbs are coloured by side, which shows which leg is in front.
-const LEFT: Colour = [0.93, 0.55, 0.24];
-const RIGHT: Colour = [0.18, 0.56, 0.60];
-const MIDDLE: Colour = [0.85, 0.83, 0.78];
 /// Radius of an arrow's shaft (m).
 const ARROW_RADIUS_M: f64 = 0.015;
 
-/// Coloured shapes above the ground.
+/// Surface in the world.
 #[derive(Clone, Debug)]
+pub(crate) struct PlacedSkin {
+    pub skin: Arc<Skin>,
+    pub pose: Isometry3<f32>,
+    /// `None` is the ground, whose colour depends on the place.
+    pub colour: Option<Colour>,
+    /// Whether it throws a shadow.
+    pub is_solid: bool,
+}
+
+/// Size of the smallest details of ground and arrows (m).
+const DETAIL_M: f32 = 1e-4;
+
+/// Coloured surfaces above the ground.
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
-    surface: Surface,
-    solids: Vec<(Solid, Colour)>,
-    bound: Option<Ball>,
+    pub(crate) placed: Vec<PlacedSkin>,
+    /// How many of them are the robot; they are the first ones.
+    robot: usize,
+    field: Option<Arc<HeightField>>,
 }
 
 impl Scene {
-    /// Returns a level scene without shapes.
+    /// Returns a level scene without surfaces.
     #[must_use]
     pub fn empty() -> Self {
-        Self { surface: Surface::new(None), solids: Vec::new(), bound: None }
+        Self::default()
     }
 
-    /// Returns the shapes of a body at their current poses.
+    /// Returns the colliding shapes of a body at their current poses.
     #[must_use]
     pub fn of(physics: &Physics) -> Self {
-        let model = physics.model();
-        let mut solids = Vec::new();
-        for (index, (body, motion)) in model.bodies.iter().zip(physics.body_motions()).enumerate() {
-            for (number, shape) in body.shapes.iter().enumerate() {
-                let link = model.link_of_shape(index, number).map_or(&body.name, |link| &model.links[link].name);
-                solids.push((Solid::new(&shape.geometry, &motion.pose), colour(link)));
-            }
-        }
-        let bound = bound(&solids);
-        Self { surface: Surface::new(model.ground.height_field.as_deref()), solids, bound }
+        Self::with(&Look::of(physics.model(), &[]), physics)
+    }
+
+    /// Returns a body with this look at its current pose.
+    #[must_use]
+    pub fn with(look: &Look, physics: &Physics) -> Self {
+        let poses: Vec<Isometry3<f32>> = physics.body_motions().map(|motion| motion.pose.cast()).collect();
+        let place = |(body, skin, colour): &(usize, Arc<Skin>, Colour)| PlacedSkin {
+            skin: skin.clone(),
+            pose: poses[*body],
+            colour: Some(*colour),
+            is_solid: true,
+        };
+        let mut placed: Vec<PlacedSkin> = look.skins.iter().map(place).collect();
+        let robot = placed.len();
+        let field = physics.model().ground.height_field.clone();
+        let ground = field.as_deref().map(|field| Skin::of(&TriangleMesh::of_field(field), DETAIL_M));
+        placed.extend(ground.map(|skin| PlacedSkin {
+            skin,
+            pose: Isometry3::identity(),
+            colour: None,
+            is_solid: false,
+        }));
+        Self { placed, robot, field }
     }
 
     /// Adds a horizontal arrow with a ball as its tip, from a point in the world.
@@ -54,57 +82,33 @@ impl Scene {
         let to_m = from_m + Vector3::new(along_m[0], along_m[1], 0.0);
         let shaft = Geometry::Capsule { from_m, to_m, radius_m: ARROW_RADIUS_M };
         let tip = Geometry::Sphere { centre_m: to_m, radius_m: 2.0 * ARROW_RADIUS_M };
-        self.solids.extend([shaft, tip].map(|part| (Solid::new(&part, &Isometry3::identity()), colour)));
-        self.bound = bound(&self.solids);
+        self.placed.extend([shaft, tip].map(|part| PlacedSkin {
+            skin: Skin::of(&TriangleMesh::of(&part), DETAIL_M),
+            pose: Isometry3::identity(),
+            colour: Some(colour),
+            is_solid: false,
+        }));
     }
 
-    pub(crate) fn surface(&self) -> &Surface {
-        &self.surface
+    /// Returns the least and the greatest corner of the box around the robot (m); `None` without one.
+    #[must_use]
+    pub fn robot_box_m(&self) -> Option<[Point3<f64>; 2]> {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let corners = self.placed[..self.robot]
+            .iter()
+            .flat_map(|part| part.skin.seen(&part.pose, &axes, &Vector3::zeros()))
+            .map(|corner| (corner, corner));
+        let around = corners.reduce(|(low, high), (other, _)| (low.inf(&other), high.sup(&other)))?;
+        Some([around.0, around.1].map(|corner| Point3::from(corner.cast())))
     }
 
-    /// Returns the first hit of a ray on a shape.
-    pub(crate) fn hit(&self, ray: &Ray) -> Option<(Hit, Colour)> {
-        if !self.is_near(ray) {
-            return None;
-        }
-        let mut first: Option<(Hit, Colour)> = None;
-        for (solid, colour) in &self.solids {
-            let nearest_m = first.map_or(f64::INFINITY, |(hit, _)| hit.distance_m);
-            if solid.bound.may_hit(ray, nearest_m)
-                && let Some(hit) = solid.hit(ray)
-                && hit.distance_m < nearest_m
-            {
-                first = Some((hit, *colour));
-            }
-        }
-        first
+    /// Returns the height of the ground at a place (m).
+    #[must_use]
+    pub fn ground_m(&self, x_m: f64, y_m: f64) -> f64 {
+        self.field.as_ref().and_then(|field| field.height_at(x_m, y_m)).unwrap_or(0.0)
     }
 
-    /// Returns whether a ray hits any shape.
-    pub(crate) fn is_hit(&self, ray: &Ray) -> bool {
-        self.is_near(ray)
-            && self.solids.iter().any(|(solid, _)| solid.bound.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())
-    }
-
-    fn is_near(&self, ray: &Ray) -> bool {
-        self.bound.is_some_and(|bound| bound.may_hit(ray, f64::INFINITY))
-    }
-}
-
-fn bound(solids: &[(Solid, Colour)]) -> Option<Ball> {
-    let sum: nalgebra::Vector3<f64> = solids.iter().map(|(solid, _)| solid.bound.centre.coords).sum();
-    let centre = Point3::from(sum / solids.len().max(1) as f64);
-    let reach = |(solid, _): &(Solid, Colour)| nalgebra::distance(&centre, &solid.bound.centre) + solid.bound.radius_m;
-    let radius_m = solids.iter().map(reach).reduce(f64::max)?;
-    Some(Ball { centre, radius_m })
-}
-
-/// Returns the colour of a link by the side in its name.
-#[must_use]
-pub fn colour(name: &str) -> Colour {
-    match (name.contains("left"), name.contains("right")) {
-        (true, false) => LEFT,
-        (false, true) => RIGHT,
-        _ => MIDDLE,
+    pub(crate) fn is_level(&self) -> bool {
+        self.field.is_none()
     }
 }

@@ -2,10 +2,9 @@
 
 use std::iter;
 
-use nalgebra::Point3;
 use treadmill_humanoid::{Model, mjcf::VisualMesh};
 use treadmill_proto::page::{PageBody, PageHinge, PageMesh, PageRobot};
-use treadmill_render::{TriangleMesh, scene::colour};
+use treadmill_render::{TriangleMesh, look};
 
 /// Colour of ground that is not level.
 const GROUND: [f64; 3] = [0.55, 0.56, 0.58];
@@ -13,11 +12,10 @@ const GROUND: [f64; 3] = [0.55, 0.56, 0.58];
 /// Returns a robot by the meshes of its file, or by its colliding shapes if there are none.
 #[must_use]
 pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Vec<String>) -> PageRobot {
-    // The file may be of another robot than this one.
-    let is_of_file = visuals.iter().any(|visual| model.links.iter().any(|link| link.name == visual.link));
+    let parts = look::parts(model, visuals);
     let body = |(index, body): (usize, &treadmill_humanoid::model::Body)| PageBody {
         name: body.name.clone(),
-        meshes: if !is_of_file { shapes(model, index).collect() } else { of_file(model, index, visuals).collect() },
+        meshes: parts.iter().filter(|part| part.body == index).map(|part| mesh(&part.mesh, part.colour)).collect(),
     };
     let hinge = |hinge: &treadmill_humanoid::model::Hinge| PageHinge {
         name: hinge.name.clone(),
@@ -57,29 +55,6 @@ fn feet(model: &Model) -> Vec<u32> {
 #[must_use]
 pub fn ground(model: &Model) -> Option<PageMesh> {
     model.ground.height_field.as_deref().map(|field| mesh(&TriangleMesh::of_field(field), GROUND))
-}
-
-fn shapes(model: &Model, body: usize) -> impl Iterator<Item = PageMesh> {
-    model.bodies[body].shapes.iter().enumerate().map(move |(number, shape)| {
-        let link = model.link_of_shape(body, number).map_or(&model.bodies[body].name, |link| &model.links[link].name);
-        mesh(&TriangleMesh::of(&shape.geometry), colour(link))
-    })
-}
-
-/// Returns the meshes of the file on the links of a body, in the body's frame.
-fn of_file(model: &Model, body: usize, visuals: &[VisualMesh]) -> impl Iterator<Item = PageMesh> {
-    visuals.iter().filter_map(move |visual| {
-        let link = model.links.iter().find(|link| link.name == visual.link && link.body == body)?;
-        let pose = model.pose_in_file(link) * visual.pose;
-        let place = |corner: &[f32; 3]| {
-            let placed: Point3<f64> = pose * Point3::from(corner.map(f64::from));
-            placed.coords.map(|part| part as f32).into()
-        };
-        let corners_m = visual.vertices_m.iter().map(place).collect();
-        let [red, green, blue, _] = visual.colour;
-        let triangles = TriangleMesh { corners_m, triangles: visual.faces.clone(), is_faceted: false };
-        Some(mesh(&triangles, [red, green, blue]))
-    })
 }
 
 fn mesh(triangles: &TriangleMesh, colour: [f64; 3]) -> PageMesh {

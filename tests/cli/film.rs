@@ -116,10 +116,53 @@ fn unwritable_outputs_and_invalid_flags_are_refused() {
     fs::write(folder.path().join("full/a"), "x").unwrap();
     refused(&["--png", "full"], 2, &["--png full", "not empty"]);
     refused(&["--film", "absent/a.gif"], 1, &["--film absent/a.gif"]);
-    refused(&["--film", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
+    refused(&["--film", "a.gif", "--size", "9x9"], 2, &["--size", "640x480"]);
     refused(&["--film", "a.gif", "--fps", "0"], 2, &["--fps"]);
     refused(&["--fps", "10"], 2, &["--film"]);
     refused(&["--film", "a.avi"], 2, &["--film a.avi", ".gif or .mp4"]);
     refused(&["--film", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "every episode ended before"]);
     assert!(!folder.path().join("a.gif").exists());
+}
+
+/// Whether a pixel has a colour of the robot: sky and ground are bluish, and the right limbs far more so.
+fn is_robot([red, _, blue]: [u8; 3]) -> bool {
+    let warm = i32::from(red) - i32::from(blue);
+    !(-38..=4).contains(&warm)
+}
+
+#[test]
+fn the_robot_stands_in_the_middle_of_half_of_the_picture_and_the_text_changes() {
+    let (folder, _) = folders();
+    done(folder.path(), &["eval", "--agent", "random", "--episodes", "1", "--png", "frames", "--seconds", "0.3"]);
+    let picture = |number: u32| pixels(&folder.path().join(format!("frames/{number:05}.png")));
+    let mut lines = Vec::new();
+    for number in [0, 5] {
+        let (width, height, rgb) = picture(number);
+        assert_eq!((width, height), (640, 480));
+        let rows: Vec<&[[u8; 3]]> = rgb.as_chunks::<3>().0.chunks(640).collect();
+        let shown: Vec<usize> = (0..480).filter(|row| rows[*row].iter().any(|pixel| is_robot(*pixel))).collect();
+        let (top, bottom) = (shown[0] as f64, *shown.last().unwrap() as f64);
+        assert!(((top + bottom) / 2.0 - 240.0).abs() < 25.0, "picture {number}: rows {top} to {bottom}");
+        assert!((0.42..0.6).contains(&((bottom - top) / 480.0)), "picture {number}: rows {top} to {bottom}");
+        lines.push(rows[..30].concat());
+        // Lines of the ground and numbers: the lower edge is not of one colour.
+        let mut colours: Vec<[u8; 3]> = rows[380..].concat();
+        colours.sort_unstable();
+        colours.dedup();
+        assert!(colours.len() > 50, "picture {number}: {} colours", colours.len());
+    }
+    assert_ne!(lines[0], lines[1], "time and speed are other ones");
+    let dark = |line: &[[u8; 3]]| line.iter().filter(|pixel| pixel.iter().all(|part| *part < 80)).count();
+    assert!(dark(&lines[0]) > 40, "{} pixels of ink", dark(&lines[0]));
+}
+
+#[test]
+fn a_film_that_cannot_be_written_fails_before_an_episode_is_played() {
+    let (folder, _) = folders();
+    for (name, wanted) in [("absent/a.gif", "does not exist"), ("a.png", ".gif or .mp4")] {
+        let args = ["eval", "--agent", "random", "--episodes", "1", "--print-every", "1", "--film", name];
+        let output = run(folder.path(), &args);
+        assert!(!output.status.success() && stderr(&output).contains(wanted), "{}", stderr(&output));
+        assert_eq!(stdout(&output), "", "no step was played");
+    }
 }

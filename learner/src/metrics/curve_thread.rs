@@ -13,7 +13,7 @@ use std::{
 
 use treadmill_runtime::error_chain;
 
-use super::{CurveError, draw_curve};
+use super::{CurveError, CurveFacts, draw_curve};
 
 /// The first image is due after this time, so that a short run shows one.
 const FIRST_AFTER: Duration = Duration::from_secs(10);
@@ -25,6 +25,7 @@ const PAUSE_DURATIONS: u64 = 200;
 /// Thread that draws the learning curve.
 pub struct CurveThread {
     metrics_jsonl: PathBuf,
+    facts: CurveFacts,
     png: PathBuf,
     requests: Option<SyncSender<()>>,
     thread: Option<JoinHandle<()>>,
@@ -38,15 +39,15 @@ pub struct CurveThread {
 
 impl CurveThread {
     /// Starts the thread; it draws nothing yet.
-    pub fn new(metrics_jsonl: PathBuf, png: PathBuf) -> Self {
+    pub fn new(metrics_jsonl: PathBuf, facts: CurveFacts, png: PathBuf) -> Self {
         // Without a buffer, so that requests fail while the thread is drawing.
         let (requests, receiver) = sync_channel::<()>(0);
         let took_ms = Arc::new(AtomicU64::new(0));
-        let (from, to, took) = (metrics_jsonl.clone(), png.clone(), took_ms.clone());
+        let (from, shown, to, took) = (metrics_jsonl.clone(), facts.clone(), png.clone(), took_ms.clone());
         let thread = std::thread::Builder::new().name("curve".to_string()).spawn(move || {
             while receiver.recv().is_ok() {
                 let begun = Instant::now();
-                if let Err(why) = draw_curve(&from, &to) {
+                if let Err(why) = draw_curve(&from, &shown, &to) {
                     tracing::debug!(error = %error_chain(&why), "learning curve not drawn");
                 }
                 took.store(begun.elapsed().as_millis() as u64, Ordering::Relaxed);
@@ -57,6 +58,7 @@ impl CurveThread {
         }
         Self {
             metrics_jsonl,
+            facts,
             png,
             requests: Some(requests),
             thread: thread.ok(),
@@ -87,6 +89,6 @@ impl CurveThread {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
-        draw_curve(&self.metrics_jsonl, &self.png)
+        draw_curve(&self.metrics_jsonl, &self.facts, &self.png)
     }
 }

@@ -15,12 +15,15 @@
 //! - [`sparkline`]: a curve in one line of text.
 //! - [`prometheus`]: [`PrometheusMetrics`], the newest values in Prometheus's text format.
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
+//! - `curve_points`: what the curve shows; `curve_marks`: marks, legends and soft edges.
 //! - [`curve_thread`]: [`CurveThread`], which draws the curve at intervals during training.
 //!
 //! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
 
 pub mod catalogue;
 pub mod curve;
+mod curve_marks;
+mod curve_points;
 pub mod curve_thread;
 mod efficiency;
 pub mod films;
@@ -37,7 +40,7 @@ pub mod sparkline;
 pub mod table;
 pub mod tensorboard;
 
-pub use curve::{CurveError, draw_curve};
+pub use curve::{CurveError, CurveFacts, draw_curve};
 pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use films::{FilmOfPolicy, FilmSlot};

@@ -8,8 +8,8 @@ use treadmill_proto::json::Metric;
 use treadmill_runtime::{error_chain, machine, run_folder::RunFolder};
 
 use super::{
-    Console, ConsoleOptions, CurveError, CurveThread, EventWriter, FilmOfPolicy, FilmSlot, Histogram, History,
-    JsonLines, PrometheusMetrics, tensorboard::texts,
+    Console, ConsoleOptions, CurveError, CurveFacts, CurveThread, EventWriter, FilmOfPolicy, FilmSlot, Histogram,
+    History, JsonLines, PrometheusMetrics, tensorboard::texts,
 };
 use crate::{checkpoint::TrainingState, waiting::Retry};
 
@@ -79,7 +79,7 @@ impl MetricsReport {
             }
         }
         Ok(Self {
-            curve: CurveThread::new(folder.metrics(), folder.learning_curve()),
+            curve: CurveThread::new(folder.metrics(), CurveFacts::of(config), folder.learning_curve()),
             run: state.run.clone(),
             bus: bus.clone(),
             console: Console::new(config.run.steps, env_steps, options.console.clone()),

@@ -18,12 +18,15 @@ use crate::launch::exit_code::Usage;
 /// Longest part of ffmpeg's messages that is shown.
 const MESSAGE_BYTES_MAX: u64 = 2000;
 
+/// Bytes that are written, and removed again, when the film is opened.
+const FIRST_BYTES: usize = 64 << 10;
+
 /// Reads width and height of a picture, in pixels.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let sides =
         text.split_once(['x', 'X', '×']).and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     let is_allowed = |(width, height): &(u32, u32)| (16..=4096).contains(width) && (16..=4096).contains(height);
-    let expected = "expected width and height of 16 to 4096 pixels each, as in 320x240";
+    let expected = "expected width and height of 16 to 4096 pixels each, as in 640x480";
     sides.filter(is_allowed).ok_or_else(|| expected.to_string())
 }
 
@@ -54,8 +57,14 @@ impl Film {
         if !folder.is_dir() {
             anyhow::bail!("--film {}: the folder `{}` does not exist", path.display(), folder.display());
         }
-        let file = NamedTempFile::new_in(folder)
+        let mut file = NamedTempFile::new_in(folder)
             .with_context(|| format!("--film {}: the folder is not writable", path.display()))?;
+        // On a full disk the first bytes fail, before an episode is played in vain.
+        let written = file.write_all(&[0; FIRST_BYTES]).and_then(|()| file.as_file().sync_all());
+        written
+            .and_then(|()| file.as_file().set_len(0))
+            .and_then(|()| file.rewind())
+            .with_context(|| format!("--film {}: the file cannot be written", path.display()))?;
         let encoder = match is_mp4 {
             false => Encoder::Gif(Box::new(Gif::new(BufWriter::new(file), f64::from(fps)))),
             true => open_ffmpeg(path, file.into_temp_path(), size, fps)?,
@@ -147,7 +156,7 @@ mod tests {
     fn a_size_has_two_numbers_in_bounds() {
         assert_eq!(size("640x480"), Ok((640, 480)));
         for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
-            assert!(size(wrong).unwrap_err().contains("320x240"), "{wrong}");
+            assert!(size(wrong).unwrap_err().contains("640x480"), "{wrong}");
         }
     }
 }

@@ -7,9 +7,10 @@ use std::{
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
-use treadmill_actor::evaluation::EvaluationStep;
+use nalgebra::Point3;
+use treadmill_actor::{evaluation::EvaluationStep, poses::heading_velocity};
 use treadmill_humanoid::{Physics, task::velocity::BaseMotion};
-use treadmill_render::{Camera, Picture, Scene, film, scene::Colour};
+use treadmill_render::{Camera, Look, Picture, Scene, film, look::Colour};
 use treadmill_runtime::atomic_file;
 
 use super::film::{Film, size};
@@ -27,7 +28,7 @@ pub struct FilmArgs {
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
     /// Width and height of the pictures, in pixels.
-    #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures", value_parser = size)]
+    #[arg(long, value_name = "WxH", default_value = "640x480", requires = "pictures", value_parser = size)]
     size: (u32, u32),
     /// Pictures per second.
     #[arg(
@@ -50,8 +51,17 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Time constant (s) with which the camera follows the torso sideways.
+/// Time constant (s) with which the camera follows the robot sideways and up, and of the mean of the actual velocity.
 const FOLLOW_S: f64 = 0.5;
+/// Direction of the camera from the robot: beside it, a little ahead and above.
+const BESIDE: [f64; 3] = [1.3, -3.1, 0.6];
+/// Share of the picture's height that a standing robot fills.
+const FILLED: f64 = 0.5;
+/// Share of the robot's height that its middle is from that of the picture before the camera moves up or down: the ground
+/// stands still in the picture while the robot bobs.
+const LEVEL: f64 = 0.03;
+/// Metres to either side of the robot at which the ground has numbers.
+const NUMBERED_M: i64 = 8;
 
 /// Arrows of the commanded and of the actual velocity, the second one above the first.
 const ARROWS: [Colour; 2] = [[0.15, 0.70, 0.25], [0.15, 0.35, 0.85]];
@@ -69,14 +79,19 @@ pub struct Filming {
     /// Pictures so far, and those of the present episode.
     taken: u32,
     taken_of_episode: u32,
-    /// Point of the floor that the camera follows.
-    followed_m: Option<[f64; 2]>,
+    look: Look,
+    /// Height of the robot in the first picture (m).
+    height_m: Option<f64>,
+    /// Point that the camera looks at.
+    followed_m: Option<[f64; 3]>,
+    /// Mean velocity in the heading frame, forward and left (m/s), and yaw rate (rad/s).
+    motion: Option<[f64; 3]>,
     failed: Option<anyhow::Error>,
 }
 
 impl FilmArgs {
-    /// Opens the outputs; returns `None` if no pictures are wanted.
-    pub fn begin(&self, control_step_s: f64) -> anyhow::Result<Option<Filming>> {
+    /// Opens the outputs of a robot, whose look is needed only then; returns `None` if no pictures are wanted.
+    pub fn begin(&self, control_step_s: f64, look: impl FnOnce() -> Look) -> anyhow::Result<Option<Filming>> {
         if self.film.is_none() && self.png.is_none() {
             return Ok(None);
         }
@@ -90,7 +105,10 @@ impl FilmArgs {
             control_step_s,
             taken: 0,
             taken_of_episode: 0,
+            look: look(),
+            height_m: None,
             followed_m: None,
+            motion: None,
             failed: None,
         }))
     }
@@ -111,8 +129,10 @@ impl Filming {
     /// Records a step of an evaluation.
     pub fn record(&mut self, step: &EvaluationStep) {
         if step.step == 1 {
-            (self.taken_of_episode, self.followed_m) = (0, None);
+            (self.taken_of_episode, self.followed_m, self.motion) = (0, None, None);
         }
+        let now = heading_velocity(step.environment.physics());
+        self.motion = Some(nearer(self.motion, now, [self.control_step_s; 3]));
         if self.failed.is_none()
             && let Err(why) = self.take_picture(step)
         {
@@ -121,25 +141,13 @@ impl Filming {
     }
 
     fn take_picture(&mut self, step: &EvaluationStep) -> anyhow::Result<()> {
-        let position = step.environment.physics().position();
-        let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
-        let mut followed_m = self.followed_m.unwrap_or([position[0], position[1]]);
-        // Forward motion is followed without delay, because a runner would leave the picture.
-        followed_m[0] = position[0];
-        followed_m[1] += (position[1] - followed_m[1]) * share;
-        self.followed_m = Some(followed_m);
         let time_s = f64::from(step.step) * self.control_step_s;
         // Takes the step nearest to the time at which a picture is due; several times if steps are longer than pictures.
         let due = self.due_pictures(time_s);
         if due == 0 {
             return Ok(());
         }
-        let camera = Camera::beside(followed_m[0], followed_m[1]);
-        let mut scene = Scene::of(step.environment.physics());
-        if let Some(command) = step.start.command {
-            add_velocities(&mut scene, step.environment.physics(), command);
-        }
-        let picture = Picture::of(&scene, &camera, self.args.size);
+        let picture = self.picture(step, time_s, due);
         for _ in 0..due {
             if let Some(film) = &mut self.film {
                 film.add(&picture)?;
@@ -153,6 +161,36 @@ impl Filming {
             self.taken_of_episode += 1;
         }
         Ok(())
+    }
+
+    /// Draws the robot in the middle of the picture.
+    fn picture(&mut self, step: &EvaluationStep, time_s: f64, due: usize) -> Picture {
+        let physics = step.environment.physics();
+        let mut scene = Scene::with(&self.look, physics);
+        let base_m = [0, 1, 2].map(|axis| physics.position()[axis]);
+        let [low, high] = scene.robot_box_m().unwrap_or([base_m.into(); 2]);
+        let height_m = *self.height_m.get_or_insert((high.z - low.z).max(0.1));
+        let passed_s = due as f64 / f64::from(self.args.fps);
+        // Forward motion is followed without delay, because a runner would leave the picture.
+        let (middle_m, slack_m) = ((low.z + high.z) / 2.0, LEVEL * height_m);
+        let level_m =
+            self.followed_m.map_or(middle_m, |before| before[2].clamp(middle_m - slack_m, middle_m + slack_m));
+        let now_m = [base_m[0], base_m[1], level_m];
+        let followed_m = nearer(self.followed_m, now_m, [f64::INFINITY, passed_s, passed_s]);
+        self.followed_m = Some(followed_m);
+        if let Some(command) = step.start.command {
+            add_velocities(&mut scene, physics, command);
+        }
+        let camera = Camera::framing(followed_m, BESIDE, height_m, FILLED);
+        let mut picture = Picture::of(&scene, &camera, self.args.size);
+        let (here_m, y_m) = (followed_m[0].round() as i64, followed_m[1] - 0.5 * height_m);
+        let numbers = (here_m - NUMBERED_M..=here_m + NUMBERED_M).map(|metre| {
+            let x_m = metre as f64;
+            (Point3::new(x_m, y_m, scene.ground_m(x_m, y_m)), format!("{metre} m"))
+        });
+        picture.write_scale(&camera, numbers, 0.5);
+        picture.write_line(&line(time_s, step.start.command, self.motion.unwrap_or_default()));
+        picture
     }
 
     /// Returns how many pictures are due after the step at this time of the episode.
@@ -180,6 +218,22 @@ impl Filming {
         files.extend(self.args.png.map(|folder| folder.display().to_string()));
         Ok(format!("{} pictures of {}x{}: {}", self.taken, self.args.size.0, self.args.size.1, files.join(", ")))
     }
+}
+
+/// Returns a value that follows another one, with the time that passed since it did (s).
+fn nearer(before: Option<[f64; 3]>, now: [f64; 3], passed_s: [f64; 3]) -> [f64; 3] {
+    let before = before.unwrap_or(now);
+    [0, 1, 2].map(|axis| now[axis] + (before[axis] - now[axis]) * (-passed_s[axis] / FOLLOW_S).exp())
+}
+
+/// Returns the line of text of a picture.
+fn line(time_s: f64, command: Option<[f64; 3]>, [forward, left, yaw]: [f64; 3]) -> String {
+    // Rounding would leave the sign of a zero.
+    let [forward, left, yaw] = [forward, left, yaw].map(|value| (value * 100.0).round() / 100.0 + 0.0);
+    let Some([x, y, turn]) = command else { return format!("{time_s:.1} s   {:.2} m/s", forward.hypot(left)) };
+    format!(
+        "{time_s:.1} s   commanded {x:.2}, {y:.2} m/s, {turn:.2} rad/s   actual {forward:.2}, {left:.2} m/s, {yaw:.2} rad/s"
+    )
 }
 
 /// Draws commanded and actual velocity above the robot.

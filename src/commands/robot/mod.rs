@@ -12,18 +12,13 @@ use treadmill_config::Config;
 use treadmill_humanoid::{
     EnvTask, EnvironmentConfig, HomePose, Model, ModelError, Physics, TaskRegistry, card::Proposal, mjcf,
 };
-use treadmill_render::{Camera, Picture, Scene, film};
+use treadmill_render::{Look, film, portrait};
 use treadmill_runtime::atomic_file;
 
 use crate::{
     launch::{exit_code::Usage, model, output::say},
     shared::{existing_file::existing_file, model_file::ModelFileArgs},
 };
-
-/// Width and height of the picture, in pixels.
-const PICTURE: (u32, u32) = (640, 480);
-/// Camera's place relative to the robot (m).
-const CAMERA_M: [f64; 3] = [2.2, -1.6, 0.6];
 
 /// Flags of `robot`.
 #[derive(Args)]
@@ -40,7 +35,7 @@ pub struct RobotArgs {
     /// Write the card that is found to a file, ready to edit, instead of standard output.
     #[arg(long, value_name = "CARD.toml", conflicts_with_all = ["json", "card"])]
     draft: Option<PathBuf>,
-    /// Write a picture of the default pose.
+    /// Write a picture of the default pose, from the front and from the right.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
     /// Print one JSON object.
@@ -79,10 +74,11 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
         (None, Some(key)) => key.position.clone(),
         (None, None) => robot.nominal_position(),
     };
+    // Nothing but a picture needs them.
+    let meshes = mjcf::visual_meshes(&args.file, &args.files.files()).unwrap_or_default();
     if let Some(path) = &args.png {
         physics.set_state(&position, &vec![0.0; robot.velocity_size()]);
-        let camera = Camera::following(position[0], position[1], CAMERA_M);
-        let picture = film::png(&Picture::of(&Scene::of(&physics), &camera, PICTURE))?;
+        let picture = film::png(&portrait(&Look::of(&shown, &meshes), &physics))?;
         atomic_file::write(path, &picture).map_err(|why| Usage(format!("--png {}: {why}", path.display())))?;
     }
     // Numbers of links and hinges are those with all hinges at zero.
@@ -90,13 +86,11 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     at_zero[7..].fill(0.0);
     let mut physics = Physics::new(robot.clone(), &config).map_err(|why| in_file(&why))?;
     physics.set_state(&at_zero, &vec![0.0; robot.velocity_size()]);
-    // Nothing but a viewer needs them.
-    let meshes = mjcf::visual_meshes(&args.file, &args.files.files()).map_or(0, |meshes| meshes.len());
     if args.json {
-        say(&report::json(&physics, &shown, &text, meshes, home.as_ref()).to_string());
+        say(&report::json(&physics, &shown, &text, meshes.len(), home.as_ref()).to_string());
         return Ok(());
     }
-    let lines = report::lines(&robot, &shown, &text, &args.file, meshes, home.as_ref());
+    let lines = report::lines(&robot, &shown, &text, &args.file, meshes.len(), home.as_ref());
     let Some(proposal) = proposal else {
         if args.draft.is_some() {
             return Err(Usage(format!("--draft: `{}` has a card already; edit it", args.file.display())).into());
