@@ -1,6 +1,6 @@
 // Arrows of forces and velocities, trails of the base and the feet, and the centre of mass.
 import * as THREE from "three";
-import type { Robot } from "./robots";
+import type { Foot, Robot } from "./robots";
 import { BODY_NUMBERS, POSITION_M, type Sample, type Timeline } from "./timeline";
 
 const FORCE_N = 0.1;
@@ -101,6 +101,7 @@ export class Arrows {
   private readonly matrix = new THREE.Matrix4();
   private readonly from = new THREE.Vector3();
   private readonly to = new THREE.Vector3();
+  private readonly turn = new THREE.Quaternion();
   private readonly part = new THREE.Vector3();
 
   constructor() {
@@ -130,8 +131,8 @@ export class Arrows {
     this.velocity(this.rods.command, robot, frame.command, 0.16);
     this.velocity(this.rods.velocity, robot, frame.velocity, 0.1);
     const { episode } = sample.before.frame;
-    const trail = (rods: Rods, body?: number) => {
-      if (rods.group.visible) this.trail(rods, robot, episode, timeline, index, body);
+    const trail = (rods: Rods, foot?: Foot) => {
+      if (rods.group.visible) this.trail(rods, robot, episode, timeline, index, foot);
     };
     trail(this.rods.trail);
     for (const foot of robot.feet.left) trail(this.rods.left, foot);
@@ -139,9 +140,10 @@ export class Arrows {
     if (robot.hasCentre && this.rods.centre.group.visible) this.centre(robot);
   }
 
-  /** Where a body is drawn. */
-  private at(robot: Robot, body: number): THREE.Vector3 {
-    return this.to.copy(robot.base).add(robot.bodies[body]!.position);
+  /** Where a foot is drawn. */
+  private at(robot: Robot, { body, at }: Foot): THREE.Vector3 {
+    const { position, quaternion } = robot.bodies[body]!;
+    return this.to.copy(at).applyQuaternion(quaternion).add(position).add(robot.base);
   }
 
   private centre(robot: Robot): void {
@@ -159,18 +161,22 @@ export class Arrows {
     rods.arrow(this.from, this.to);
   }
 
-  /** Draws where the base, or a body, was in the last seconds. */
-  private trail(rods: Rods, robot: Robot, episode: bigint, timeline: Timeline, index: number, body?: number): void {
+  /** Draws where the base, or a foot, was in the last seconds. */
+  private trail(rods: Rods, robot: Robot, episode: bigint, timeline: Timeline, index: number, foot?: Foot): void {
     let last_s = -Infinity;
     timeline.visit(index, TRAIL_S, ({ frame, shown_s, bodies }) => {
       if (frame.episode !== episode || shown_s < last_s + TRAIL_STEP_S) return;
       this.to.fromArray(frame.baseM);
       this.to.y += robot.offset_m;
-      if (body !== undefined) this.to.add(this.part.fromArray(bodies, BODY_NUMBERS * body));
+      if (foot !== undefined) {
+        const from = BODY_NUMBERS * foot.body;
+        this.to.add(this.part.fromArray(bodies, from));
+        this.to.add(this.part.copy(foot.at).applyQuaternion(this.turn.fromArray(bodies, from + 3)));
+      }
       if (last_s > 0) rods.rod(this.from, this.to);
       this.from.copy(this.to);
       last_s = shown_s;
     });
-    if (last_s > 0) rods.rod(this.from, body === undefined ? robot.base : this.at(robot, body));
+    if (last_s > 0) rods.rod(this.from, foot === undefined ? robot.base : this.at(robot, foot));
   }
 }

@@ -7,6 +7,9 @@ import { BODY_NUMBERS, type Sample } from "./timeline";
 /** Distance between robots that are compared, as all of them share one world frame. */
 export const SPACING_M = 1.5;
 
+/** Point of a body, in its frame (m). */
+export type Foot = { body: number; at: THREE.Vector3 };
+
 export class Robot {
   readonly group = new THREE.Group();
   /** Where the base is drawn: its position in the world and the offset. */
@@ -19,8 +22,8 @@ export class Robot {
   top_m = 0.5;
   height_m = 1;
   readonly bodies: THREE.Group[] = [];
-  /** Indices of the feet that were left and right of the base when it was first drawn. */
-  readonly feet: Record<"left" | "right", number[]> = { left: [], right: [] };
+  /** Feet that were left and right of the base when it was first drawn. */
+  readonly feet: Record<"left" | "right", Foot[]> = { left: [], right: [] };
   private readonly from = new THREE.Quaternion();
   private readonly to = new THREE.Quaternion();
 
@@ -79,10 +82,11 @@ export class Robot {
   private measure(): void {
     this.group.visible = true;
     this.group.updateMatrixWorld(true);
-    for (const foot of this.robot.feet) {
-      const { x, y } = this.bodies[foot]?.position ?? this.centre;
+    for (const { body, atM } of this.robot.feet) {
+      if (body >= this.bodies.length) continue;
+      const { x, y } = this.bodies[body]!.position;
       const isLeft = y * Math.cos(this.yaw_rad) > x * Math.sin(this.yaw_rad);
-      if (foot < this.bodies.length) this.feet[isLeft ? "left" : "right"].push(foot);
+      this.feet[isLeft ? "left" : "right"].push({ body, at: new THREE.Vector3().fromArray(atM) });
     }
     const { min, max } = new THREE.Box3().setFromObject(this.group);
     if (min.z > max.z) return;

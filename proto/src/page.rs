@@ -3,8 +3,8 @@
 use prost::Message;
 
 pub use crate::wire::{
-    FromPage, PageBody, PageCommand, PageCurve, PageCurves, PageFrame, PageHinge, PageMesh, PagePush, PageRobot,
-    PageScene, PageWorld, ToPage, from_page::Kind as FromPageKind, to_page::Kind as ToPageKind,
+    FromPage, PageBody, PageCommand, PageCurve, PageCurves, PageFoot, PageFrame, PageHinge, PageMesh, PagePush,
+    PageRobot, PageScene, PageWorld, ToPage, from_page::Kind as FromPageKind, to_page::Kind as ToPageKind,
 };
 use crate::{Malformed, check_size, planes::check_finite};
 

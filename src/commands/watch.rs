@@ -30,7 +30,7 @@ const RUNS_MAX: usize = 32;
 pub struct WatchArgs {
     #[command(flatten)]
     reach: ReachArgs,
-    /// Further policies, which move beside the first one under the same commands; of more than four, only the curves are shown.
+    /// Further policies, which move beside the first one under the same commands; of more than four only the curves.
     #[arg(value_name = "RUN", conflicts_with_all = ["live", "connect"])]
     more: Vec<String>,
     /// Watch an actor of a run while it trains. RUN is its folder on this machine; on other machines pass --connect.

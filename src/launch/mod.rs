@@ -5,10 +5,10 @@
 //!   new run), `warm_start` (from another run's policy or state), `resumption` (loads a saved run and compares the
 //!   flags with it), `model` (the robot), `automatic` (settings that follow from its size), `external_task` (waits for
 //!   the task that the first actor registers), `banner` (text printed before and after a run).
-//! - During a run: `host` (a learner with actors beside it), `films` (of the newest policy), `durability` (the same with its state in a store), `standby`
-//!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
-//!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over
-//!   HTTP).
+//! - During a run: `host` (a learner with actors beside it), `films` (of the newest policy), `durability` (a host whose
+//!   state is in a store), `standby` (waits until it is time to lead), `supervisor` (restarts actor processes),
+//!   `bus_client` (flags and session of an actor or evaluator), `router_session` (session of a learner or router),
+//!   `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, [`child`] (processes that end with this one), `familiar_flags` (hints for flags of
 //!   other programs), `processor` (refuses one that is too old), [`memory`] (allocator settings), `restart` (starts the
 //!   program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].

@@ -2,8 +2,12 @@
 
 use std::iter;
 
-use treadmill_humanoid::{Model, mjcf::VisualMesh};
-use treadmill_proto::page::{PageBody, PageHinge, PageMesh, PageRobot};
+use treadmill_humanoid::{
+    Model,
+    mjcf::VisualMesh,
+    model::{Link, Robot},
+};
+use treadmill_proto::page::{PageBody, PageFoot, PageHinge, PageMesh, PageRobot};
 use treadmill_render::{TriangleMesh, look};
 
 /// Colour of ground that is not level.
@@ -42,13 +46,16 @@ pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Ve
     }
 }
 
-/// Returns the bodies that are feet: those of the robot's card, else those whose names say so.
-fn feet(model: &Model) -> Vec<u32> {
-    if let Some(robot) = &model.robot {
-        return robot.feet.iter().map(|foot| model.links[*foot].body as u32).collect();
-    }
-    let named = model.bodies.iter().enumerate().filter(|(_, body)| body.name.contains("foot"));
-    named.map(|(index, _)| index as u32).collect()
+/// Returns the origins of the feet's links: of those of the robot's card, else of those whose names say so.
+fn feet(model: &Model) -> Vec<PageFoot> {
+    let named = || model.links.iter().filter(|link| link.name.ends_with("foot")).collect();
+    let of_card = |robot: &Robot| robot.feet.iter().map(|foot| &model.links[*foot]).collect();
+    let feet: Vec<&Link> = model.robot.as_ref().filter(|robot| !robot.feet.is_empty()).map_or_else(named, of_card);
+    let foot = |link: &&Link| PageFoot {
+        body: link.body as u32,
+        at_m: link.pose.translation.vector.iter().map(|part| *part as f32).collect(),
+    };
+    feet.iter().map(foot).collect()
 }
 
 /// Returns the ground of a model; `None` if it is the plane z = 0.
@@ -85,8 +92,11 @@ mod tests {
         let hip = found.hinges.iter().find(|hinge| hinge.name == "right_hip_y").unwrap();
         // Gymnasium's humanoid: gear 300, controls of ±0.4.
         assert!((hip.effort_nm - 120.0).abs() < 1e-3, "{hip:?}");
-        let feet: Vec<_> = found.feet.iter().map(|foot| found.bodies[*foot as usize].name.as_str()).collect();
-        assert_eq!(feet, ["right_foot", "left_foot"]);
+        // The feet are welded to the shins, 0.39 and 0.45 m below the knees.
+        let feet: Vec<_> = found.feet.iter().map(|foot| &found.bodies[foot.body as usize].name[..]).collect();
+        assert_eq!(feet, ["right_shin", "left_shin"]);
+        let below_m = found.feet.iter().map(|foot| foot.at_m[2]);
+        assert!(below_m.clone().all(|z_m| (-0.5..-0.35).contains(&z_m)), "{:?}", below_m.collect::<Vec<_>>());
         assert!(ground(&model).is_none());
         let thigh = &found.bodies.iter().find(|body| body.name == "left_thigh").unwrap().meshes[0];
         assert_eq!(thigh.colour, 0xed_8c_3d);

@@ -9,15 +9,15 @@ use std::{
 /// Most words of a page.
 const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2000), ("CHANGELOG.md", 600)];
 /// Most words of all pages together, generated ones included.
-const ALL_WORDS_MAX: usize = 36_300;
+const ALL_WORDS_MAX: usize = 36_600;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [96_850, 64_700];
+const RUST_LINES_MAX: [usize; 2] = [99_300, 66_300];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
-const FILES_MAX: usize = 1_035;
+const FILES_MAX: usize = 1_060;
 /// Most characters of a line of a comment.
 const LINE_CHARS_MAX: usize = 125;
 /// Words and phrases in place of a concrete subject or verb.

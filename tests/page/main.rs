@@ -146,7 +146,7 @@ fn a_trace_is_played_as_it_was_recorded() {
     let steps: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let (watching, address) = watch(folder.path(), &[G1, "--trace", "trace.jsonl"]);
     let page = browser.open(&address, WIDE);
-    browser.wait_for(&page, "window.treadmill?.frames() > 20");
+    browser.wait_for(&page, "window.treadmill?.shown()?.shown_s > 1");
     browser.press(&page, " ", "Space");
     let shown = browser.value(&page, "window.treadmill.shown()");
     // Between two steps of the trace: G1 makes one each 20 ms, the page shows 30 poses per second and what lies between.
@@ -189,8 +189,9 @@ fn one_page_at_a_time_steers_also_by_a_gamepad() {
         )
     };
     browser.value(&second, &gamepad(0.0));
-    let rested = browser.value(&second, "window.treadmill.frames()");
-    browser.wait_for(&second, &format!("window.treadmill.frames() > {rested} + 30"));
+    // What is shown moves only when the page is drawn, which reads the sticks.
+    let rested_s = shown(&mut browser, &second, "shown_s");
+    browser.wait_for(&second, &format!("window.treadmill.shown().shown_s > {rested_s} + 2"));
     browser.value(&second, &gamepad(1.0));
     browser.wait_for(&first, "window.treadmill.othersSteer()");
     // Full forward is the end of training's range, 1 m/s.

@@ -1,4 +1,4 @@
-//! Film of the robot on its way to TensorBoard: whoever renders it leaves it here, and the next update logs it.
+//! Film of the robot on its way to TensorBoard: the thread that has it rendered leaves it here, the next update logs it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

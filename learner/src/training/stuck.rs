@@ -25,7 +25,8 @@ pub(super) struct Stuck {
 }
 
 impl Stuck {
-    /// Records the last episodes, the velocity error of the last evaluation (m/s) and the steps of the run. Returns the alarm.
+    /// Records the last episodes, the velocity error of the last evaluation (m/s) and the steps of the run. Returns an
+    /// alarm if there is one.
     pub(super) fn record(
         &mut self,
         means: EpisodeMeans,
