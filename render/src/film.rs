@@ -1,6 +1,10 @@
 //! Encoding of pictures as GIF and PNG.
 
-use std::{collections::HashMap, io::Write, iter};
+use std::{
+    collections::{HashMap, HashSet},
+    io::Write,
+    iter,
+};
 
 use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
@@ -26,8 +30,10 @@ pub enum FilmError {
     },
 }
 
-/// Colours of a GIF besides [`TRANSPARENT`].
-const COLOURS: usize = 255;
+/// Colours of a GIF by the quantiser; those of the first picture that are farthest from them, such as a small arrow's; and
+/// [`TRANSPARENT`].
+const COLOURS: usize = 223;
+const RARE: usize = 32;
 /// Index of the transparent colour, which keeps the previous frame's pixel.
 const TRANSPARENT: u8 = 255;
 /// Sampling factor of the colour quantiser, from 1 (all pixels) to 30.
@@ -50,6 +56,7 @@ struct Encoding<W: Write> {
     encoder: Encoder<W>,
     size: (u16, u16),
     colours: NeuQuant,
+    rare: Vec<[u8; 3]>,
     palette: Vec<[u8; 3]>,
     indices: HashMap<[u8; 3], u8>,
     previous: Vec<u8>,
@@ -98,27 +105,44 @@ impl<W: Write> Gif<W> {
 
 impl<W: Write> Encoding<W> {
     fn new(out: W, size: (u16, u16), first: &Picture) -> Result<Self, FilmError> {
-        let rgba: Vec<u8> = first.rgb.as_chunks::<3>().0.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect();
+        let pixels = first.rgb.as_chunks::<3>().0;
+        let rgba: Vec<u8> = pixels.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 255]).collect();
         let colours = NeuQuant::new(SAMPLING, COLOURS, &rgba);
         let mut palette = colours.color_map_rgb();
-        palette.resize((COLOURS + 1) * 3, 0);
+        let single: HashSet<[u8; 3]> = pixels.iter().copied().collect();
+        let nearest = |rgb: &[u8; 3]| palette.as_chunks::<3>().0[colours.index_of(&[rgb[0], rgb[1], rgb[2], 255])];
+        let mut far: Vec<([u8; 3], u32)> = single.iter().map(|rgb| (*rgb, distance(rgb, &nearest(rgb)))).collect();
+        far.sort_unstable();
+        let mut rare = Vec::new();
+        while rare.len() < RARE
+            && let Some((found, _)) = far.iter().max_by_key(|(_, off)| *off).copied()
+        {
+            far.iter_mut().for_each(|(rgb, off)| *off = (*off).min(distance(rgb, &found)));
+            rare.push(found);
+        }
+        palette.extend(rare.as_flattened());
+        palette.resize((COLOURS + RARE + 1) * 3, 0);
         let mut encoder = Encoder::new(out, size.0, size.1, &palette)?;
         encoder.set_repeat(Repeat::Infinite)?;
         let palette = palette.as_chunks::<3>().0.to_vec();
-        Ok(Self { encoder, size, colours, palette, indices: HashMap::new(), previous: Vec::new() })
+        Ok(Self { encoder, size, colours, rare, palette, indices: HashMap::new(), previous: Vec::new() })
     }
 
     fn write(&mut self, picture: &Picture, delay: u16) -> Result<(), FilmError> {
-        let Self { colours, indices, .. } = self;
+        let Self { colours, rare, palette, indices, .. } = self;
         let mut nearest = |rgb: &[u8; 3]| {
-            *indices.entry(*rgb).or_insert_with(|| colours.index_of(&[rgb[0], rgb[1], rgb[2], 255]) as u8)
+            *indices.entry(*rgb).or_insert_with(|| {
+                let usual = colours.index_of(&[rgb[0], rgb[1], rgb[2], 255]);
+                let places = iter::once(usual).chain(COLOURS..COLOURS + rare.len());
+                places.min_by_key(|place| distance(rgb, &palette[*place])).unwrap_or(usual) as u8
+            })
         };
         let pixels = picture.rgb.as_chunks::<3>().0;
         let current: Vec<u8> = match self.previous.is_empty() {
             true => pixels.iter().map(&mut nearest).collect(),
             // A colour that hardly changes stays: that makes files smaller.
             false => iter::zip(pixels, &self.previous)
-                .map(|(rgb, before)| if near(rgb, self.palette[usize::from(*before)]) { *before } else { nearest(rgb) })
+                .map(|(rgb, before)| if near(rgb, palette[usize::from(*before)]) { *before } else { nearest(rgb) })
                 .collect(),
         };
         let (width, height) = self.size;
@@ -145,6 +169,11 @@ impl<W: Write> Encoding<W> {
         self.previous = current;
         Ok(())
     }
+}
+
+/// Returns the square of the distance of two colours.
+fn distance(one: &[u8; 3], other: &[u8; 3]) -> u32 {
+    iter::zip(one, other).map(|(one, other)| u32::from(one.abs_diff(*other)).pow(2)).sum()
 }
 
 fn near(one: &[u8; 3], other: [u8; 3]) -> bool {

@@ -38,6 +38,29 @@ fn a_decoded_gif_shows_its_pictures_with_the_right_delays() {
 }
 
 #[test]
+fn rare_colours_are_kept() {
+    let arrow = [38, 178, 64];
+    // Sky and ground of many greys, a robot of many browns, and one small arrow.
+    let wall = |at: u32| {
+        let shade = (at % 157) as u8;
+        match at {
+            2100..2103 => arrow,
+            0..3600 => [60 + shade, 65 + shade, 75 + shade],
+            _ => [shade, shade / 2, shade / 4],
+        }
+    };
+    let picture = Picture { width: 64, height: 64, rgb: (0..64 * 64).flat_map(wall).collect() };
+    let mut bytes = Vec::new();
+    Gif::new(&mut bytes, 10.0).add(&picture).unwrap();
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(&bytes[..]).unwrap();
+    let frame = decoder.read_next_frame().unwrap().unwrap();
+    let shown = &frame.buffer[4 * 2100..4 * 2100 + 3];
+    assert!(shown.iter().zip(arrow).all(|(shown, part)| shown.abs_diff(part) < 12), "{shown:?}");
+}
+
+#[test]
 fn small_changes_are_not_written_and_do_not_add_up() {
     let shade = |bright: u8| picture(|_, row| [if row == 0 { 200 } else { bright }; 3]);
     let shown = |brights: &[u8]| {

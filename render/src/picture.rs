@@ -294,6 +294,9 @@ fn floor(place_m: [f64; 2], spread_m: [f64; 2]) -> Colour {
     let line = |axis: usize, every_m: f64, half_m: f64| {
         let (nearest_m, spread) = (whole(place_m[axis] / every_m + 0.5) * every_m, spread_m[axis]);
         let off_m = (place_m[axis] - nearest_m).abs();
+        if off_m > half_m + spread / 2.0 {
+            return 0.0;
+        }
         let overlap_m = (off_m + spread / 2.0).min(half_m) - (off_m - spread / 2.0).max(-half_m);
         (overlap_m / spread.max(1e-6)).clamp(0.0, 1.0)
     };

@@ -82,7 +82,7 @@ impl Picture {
         }
     }
 
-    /// Writes texts at points of the world.
+    /// Writes texts at points of the world. Those that the edge would cut off are left out.
     pub fn write_scale(
         &mut self,
         camera: &Camera,
@@ -91,7 +91,10 @@ impl Picture {
     ) {
         let (size, height) = ((self.width, self.height), self.text_height() * 0.85);
         for (mark, text) in marks {
-            if let Some((column, row)) = camera.project(&mark, size) {
+            let Some((column, row)) = camera.project(&mark, size) else { continue };
+            let width = text_width(&text, height);
+            let left = column - width * left_share;
+            if left >= 0.0 && left + width <= f64::from(self.width) {
                 self.write(&text, Place { column, row, left_share }, height, INK);
             }
         }

@@ -87,6 +87,12 @@ fn numbers_stand_where_their_points_are() {
             assert!(right.abs() < 20.0 && down.abs() < 8.0, "{x_m}: ink {right} {down} pixels off");
         }
     }
+    // The middle of a number is in the picture, and its left half is not.
+    let mut cut = plain.clone();
+    let at_edge = (0..100).map(|part| Point3::new(-0.05 * f64::from(part), -0.5, 0.0));
+    let at_edge = at_edge.filter(|point| camera.project(point, SIZE).is_some_and(|(column, _)| column > 0.0)).last();
+    cut.write_scale(&camera, [(at_edge.unwrap(), "-2 m".to_string())], 0.5);
+    assert_eq!(cut, plain, "half a number misleads");
     let mut behind = plain.clone();
     behind.write_scale(&camera, [(Point3::new(2.0, -9.0, 0.0), "2 m".to_string())], 0.5);
     assert_eq!(behind, plain, "a point behind the camera has no number");
