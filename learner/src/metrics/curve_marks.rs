@@ -43,7 +43,7 @@ pub fn draw_legend<'a>(
     for (key, name, _) in entries.rev() {
         let style = font(17).color(&LABEL).pos(Pos::new(HPos::Right, VPos::Center));
         area.draw(&Text::new(name, scaled(right, 26), style))?;
-        right -= 8 * name.chars().count() as i32 + 10;
+        right -= 9 * name.chars().count() as i32 + 10;
         let line = |from: i32, to: i32| vec![scaled(from, 26), scaled(to, 26)];
         match key {
             Key::Line => area.draw(&PathElement::new(line(right - 30, right), colour.stroke_width(2 * SCALE)))?,
