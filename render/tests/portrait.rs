@@ -89,9 +89,8 @@ fn numbers_stand_where_their_points_are() {
     }
     // The middle of a number is in the picture, and its left half is not.
     let mut cut = plain.clone();
-    let at_edge = (0..100).map(|part| Point3::new(-0.05 * f64::from(part), -0.5, 0.0));
-    let at_edge =
-        at_edge.filter(|point| camera.project(point, SIZE).is_some_and(|(column, _)| column > 0.0)).next_back();
+    let is_inside = |point: &Point3<f64>| camera.project(point, SIZE).is_some_and(|(column, _)| column > 0.0);
+    let at_edge = (0..100).map(|part| Point3::new(-0.05 * f64::from(part), -0.5, 0.0)).rfind(is_inside);
     cut.write_scale(&camera, [(at_edge.unwrap(), "-2 m".to_string())], 0.5);
     assert_eq!(cut, plain, "half a number misleads");
     let mut behind = plain.clone();
