@@ -2,13 +2,16 @@
 import { duration, short } from "./charts";
 import { element, make, say } from "./dom";
 import { Phase, type ActorStatus, type RunStatus } from "./generated/control_pb";
+import type { PageStatus } from "./generated/page_pb";
 
 const OLD_S = 10;
 const ROWS_MAX = 50;
 /** Ages are written anew this often. */
 const REDRAW_MS = 1000;
 
-type Received = { status: RunStatus; arrived_ms: number };
+type Received = { status: RunStatus; actors: number; alive: number; arrived_ms: number };
+
+const age_s = ({ arrived_ms }: Received, now_ms: number) => Math.max(0, now_ms - arrived_ms) / 1000;
 
 const percent = (share: number) => `${Math.round(100 * share)} %`;
 
@@ -36,20 +39,19 @@ function row({ name, alive, quarantined, stats, lagVersions, sinceContactS }: Ac
   return make("tr", "", who, make("td", state, state), ...numbers.map((text) => make("td", "", text ?? "–")));
 }
 
-function table(actors: readonly ActorStatus[]): HTMLElement[] {
-  if (actors.length === 0) return [make("h3", "", "No actors")];
-  const speed = ({ stats }: ActorStatus) => stats?.envStepsPerS ?? 0;
-  const slowest = [...actors].sort((a, b) => speed(a) - speed(b));
+/** Table of the actors in the order of the server. */
+function table({ status, actors, alive }: Received): HTMLElement[] {
+  if (actors === 0) return [make("h3", "", "No actors")];
   const heads = ["actor", "state", "steps/s", "lag", "contact"].map((text) => make("th", "", text));
-  const more = actors.length - ROWS_MAX;
-  const alive = actors.filter((actor) => actor.alive).length;
+  const rows = status.actors.slice(0, ROWS_MAX).map(row);
+  const more = actors - rows.length;
   return [
-    make("h3", "", `Actors: ${alive} of ${actors.length} alive, slowest first`),
+    make("h3", "", `Actors: ${alive} of ${actors} alive, slowest first`),
     make(
       "table",
       "actors",
       make("thead", "", make("tr", "", ...heads)),
-      make("tbody", "", ...slowest.slice(0, ROWS_MAX).map(row)),
+      make("tbody", "", ...rows),
     ),
     ...(more > 0 ? [make("p", "caption", `and ${more} more`)] : []),
   ];
@@ -69,10 +71,11 @@ function parts({ parts, limit, limitHelp }: RunStatus): HTMLElement[] {
   return [make("h3", "", "Time of a round"), make("div", "parts", ...bars), ...help];
 }
 
-function section({ status, arrived_ms }: Received, now_ms: number): HTMLElement {
-  const age_s = Math.max(0, now_ms - arrived_ms) / 1000;
-  const isOld = age_s > OLD_S;
-  const state = isOld ? `status is ${seconds(age_s)} old` : (Phase[status.phase] ?? "").toLowerCase();
+function section(received: Received, now_ms: number): HTMLElement {
+  const { status } = received;
+  const old_s = age_s(received, now_ms);
+  const isOld = old_s > OLD_S;
+  const state = isOld ? `status is ${seconds(old_s)} old` : (Phase[status.phase] ?? "").toLowerCase();
   const [steps, wanted] = [Number(status.envSteps), Number(status.envStepsWanted)];
   const progress = make("progress");
   [progress.max, progress.value, progress.ariaLabel] = [Math.max(1, wanted), steps, "Steps of the run"];
@@ -92,7 +95,7 @@ function section({ status, arrived_ms }: Received, now_ms: number): HTMLElement 
     make("p", "caption", `${short(steps)} of ${short(wanted)} steps${left}`),
     make("dl", "facts", ...facts.flatMap(([name, text]) => [make("dt", "", name), make("dd", "", text)])),
     ...parts(status),
-    ...table(status.actors),
+    ...table(received),
   );
 }
 
@@ -108,11 +111,12 @@ export class Fleet {
     this.drawn_ms = -Infinity;
   }
 
-  add(status: RunStatus): void {
+  add({ status, actors, alive }: PageStatus): void {
+    if (status === undefined) return;
     const before = this.runs.get(status.run);
     // A status that comes again is not newer.
     if (status.timeUnixS > 0 && before?.status.timeUnixS === status.timeUnixS) return;
-    this.runs.set(status.run, { status, arrived_ms: performance.now() });
+    this.runs.set(status.run, { status, actors, alive, arrived_ms: performance.now() });
     this.drawn_ms = -Infinity;
   }
 
@@ -122,7 +126,8 @@ export class Fleet {
     this.drawn_ms = now_ms;
     const runs = [...this.runs.values()];
     element("fleet-body").replaceChildren(...runs.map((run) => section(run, now_ms)));
-    this.showAlarms(runs.map(({ status }) => status));
+    // What a run that ended had to say says nothing of now.
+    this.showAlarms(runs.filter((run) => age_s(run, now_ms) <= OLD_S).map(({ status }) => status));
     return runs.length > 0;
   }
 

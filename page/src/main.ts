@@ -28,6 +28,7 @@ const connection = new Connection(receive, (connected) => {
   if (!connected) return;
   charts.restart();
   fleet.restart();
+  steering.reconnect();
 });
 const steering = new Steering(connection);
 
@@ -39,7 +40,7 @@ function receive({ kind }: ToPage): void {
   else if (kind.case === "curves") charts.add(kind.value);
   else if (kind.case === "notice") say(element("notice"), kind.value);
   else if (kind.case === "status") fleet.add(kind.value);
-  else if (kind.case === "othersSteer") steering.setOthers(kind.value);
+  else if (kind.case === "steerer") steering.setSteerer(kind.value);
 }
 
 function setScene(scene: PageScene): void {

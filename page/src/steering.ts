@@ -1,7 +1,7 @@
 // Commands, pushes and worlds that the user asks for: keys, sliders and a gamepad.
 import type { Connection } from "./connection";
 import { element, input, onKey, press, say } from "./dom";
-import type { PageFrame, PageScene } from "./generated/page_pb";
+import { PageSteerer, type PageFrame, type PageScene } from "./generated/page_pb";
 
 const AXES = ["forward", "left", "turn"] as const;
 const UNITS = ["m/s", "m/s", "rad/s"] as const;
@@ -53,6 +53,8 @@ export class Steering {
   private stickRested = false;
   private stick_ms = 0;
   private others = false;
+  /** Whether the server did not say yet whose command counts on this connection. */
+  private isNew = true;
 
   constructor(private readonly connection: Connection) {
     onKey((key) => {
@@ -96,8 +98,6 @@ export class Steering {
       [input(id).min, input(id).max] = [String(this.low[axis] ?? 0), String(this.high[axis] ?? 0)];
     }
     for (const [at, [, field, nominal]] of WORLD.entries()) this.world[at]!(scene.world?.[field] ?? nominal);
-    // A server that was started anew does not know the command of before.
-    if (this.follows) this.send();
   }
 
   /** Whether robots follow another page. */
@@ -105,10 +105,20 @@ export class Steering {
     return this.others;
   }
 
-  /** Gives the command up when another page takes it. */
-  setOthers(others: boolean): void {
-    this.others = others;
-    if (others) this.follows = this.stickUsed = this.stickRested = false;
+  /** A connection was made anew. */
+  reconnect(): void {
+    this.isNew = true;
+  }
+
+  /** Takes whose command the robots follow. */
+  setSteerer(steerer: PageSteerer): void {
+    const wasLost = this.isNew && this.follows && steerer === PageSteerer.NOBODY;
+    this.isNew = false;
+    // A server that was started anew does not know the command of before.
+    if (wasLost) return this.send();
+    this.follows = steerer === PageSteerer.YOU;
+    this.others = steerer === PageSteerer.ANOTHER;
+    if (this.others) this.stickUsed = this.stickRested = false;
   }
 
   /** Shows the command of the robots or of another page while this page gives none. */

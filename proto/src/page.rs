@@ -4,7 +4,8 @@ use prost::Message;
 
 pub use crate::wire::{
     FromPage, PageBody, PageCommand, PageCurve, PageCurves, PageFoot, PageFrame, PageHinge, PageMesh, PagePush,
-    PageRobot, PageScene, PageWorld, ToPage, from_page::Kind as FromPageKind, to_page::Kind as ToPageKind,
+    PageRobot, PageScene, PageStatus, PageSteerer, PageWorld, ToPage, from_page::Kind as FromPageKind,
+    to_page::Kind as ToPageKind,
 };
 use crate::{Malformed, check_size, planes::check_finite};
 
@@ -21,6 +22,16 @@ impl ToPageKind {
     #[must_use]
     pub fn to_bytes(self) -> Vec<u8> {
         ToPage { kind: Some(self) }.encode_to_vec()
+    }
+}
+
+impl ToPage {
+    /// Decodes protobuf bytes of the server.
+    ///
+    /// # Errors
+    /// [`Malformed`] if they are none.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Malformed> {
+        Self::decode(bytes).map_err(Malformed::undecodable("message to the page"))
     }
 }
 

@@ -6,10 +6,10 @@ use nalgebra::{Isometry3, Point3};
 use treadmill_humanoid::{
     Mirror, Model,
     mjcf::VisualMesh,
-    model::{Geometry, Link},
+    model::{Geometry, HeightField, Link},
 };
 
-use crate::{TriangleMesh, raster::Skin};
+use crate::{TriangleMesh, raster::Skin, scene::ground_skin};
 
 /// Red, green and blue, each from 0 to 1.
 pub type Colour = [f64; 3];
@@ -58,7 +58,8 @@ pub fn parts(model: &Model, visuals: &[VisualMesh]) -> Vec<RobotPart> {
         Some(RobotPart { body: link.body, mesh: placed(model, link, visual), colour, tinted })
     };
     let found: Vec<RobotPart> = visuals.iter().filter_map(of_file).collect();
-    if !found.is_empty() {
+    // Robots of other makers share some names of links.
+    if 2 * found.len() > visuals.len() {
         return found;
     }
     let part = |body: usize, shape: &Geometry, link: Option<usize>| {
@@ -140,15 +141,21 @@ fn by_name(name: &str) -> Colour {
 #[derive(Clone, Debug)]
 pub struct Look {
     pub(crate) skins: Vec<(usize, Arc<Skin>, Colour)>,
+    /// Ground that is not level.
+    pub(crate) ground: Option<(Arc<HeightField>, Arc<Skin>)>,
 }
 
 impl Look {
-    /// Returns the look of a robot; see [`parts`].
+    /// Returns the look of a robot, see [`parts`], and of its model's ground.
     #[must_use]
     pub fn of(model: &Model, visuals: &[VisualMesh]) -> Self {
         let detail_m = (DETAIL * model.nominal_position()[2]).max(DETAIL_MIN_M) as f32;
         let skin = |part: RobotPart| (part.body, Skin::of(&part.mesh, detail_m), part.tinted);
-        Self { skins: parts(model, visuals).into_iter().map(skin).collect() }
+        let ground = |field: &Arc<HeightField>| (field.clone(), ground_skin(field));
+        Self {
+            skins: parts(model, visuals).into_iter().map(skin).collect(),
+            ground: model.ground.height_field.as_ref().map(ground),
+        }
     }
 }
 

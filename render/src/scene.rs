@@ -40,6 +40,11 @@ pub struct Scene {
     field: Option<Arc<HeightField>>,
 }
 
+/// Returns the surface of ground that is not level, which takes longer than to draw it.
+pub(crate) fn ground_skin(field: &HeightField) -> Arc<Skin> {
+    Skin::of(&TriangleMesh::of_field(field), DETAIL_M)
+}
+
 impl Scene {
     /// Returns a level scene without surfaces.
     #[must_use]
@@ -66,7 +71,9 @@ impl Scene {
         let mut placed: Vec<PlacedSkin> = look.skins.iter().map(place).collect();
         let robot = placed.len();
         let field = physics.model().ground.height_field.clone();
-        let ground = field.as_deref().map(|field| Skin::of(&TriangleMesh::of_field(field), DETAIL_M));
+        let known = |field: &Arc<HeightField>| look.ground.as_ref().filter(|(known, _)| Arc::ptr_eq(known, field));
+        let skin = |field: &Arc<HeightField>| known(field).map_or_else(|| ground_skin(field), |(_, skin)| skin.clone());
+        let ground = field.as_ref().map(skin);
         placed.extend(ground.map(|skin| PlacedSkin {
             skin,
             pose: Isometry3::identity(),

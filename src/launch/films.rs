@@ -4,7 +4,7 @@ use std::{
     fs,
     path::Path,
     process::{Child, Stdio},
-    thread,
+    thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
 
@@ -35,27 +35,51 @@ struct Played {
     checkpoint_env_steps: u64,
 }
 
-/// Makes films of a run in a thread of its own until the stop.
-///
-/// # Errors
-/// If the thread cannot be started.
-pub fn make(folder: RunFolder, slot: FilmSlot, shutdown: Shutdown) -> anyhow::Result<()> {
-    let make = move || {
-        let (begun, mut due) = (Instant::now(), FIRST_AFTER);
-        while !shutdown.asked() {
-            thread::sleep(POLL_EVERY);
-            if begun.elapsed() < due {
-                continue;
-            }
-            match film(&folder, &shutdown) {
-                Ok(film) => film.into_iter().for_each(|film| slot.put(film)),
-                Err(why) => tracing::debug!(error = %error_chain(&*why), "no film of the robot"),
-            }
-            due = begun.elapsed() + begun.elapsed().min(PAUSE_MAX);
+/// Thread that makes films of a run. It ends when this is dropped: a process that ended before it would leave the folder of
+/// the film that is being made.
+pub struct Films {
+    stop: Shutdown,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Films {
+    /// Begins to make films.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn begin(folder: RunFolder, slot: FilmSlot) -> anyhow::Result<Self> {
+        let stop = Shutdown::default();
+        let make = {
+            let stop = stop.clone();
+            move || make(&folder, &slot, &stop)
+        };
+        let thread = thread::Builder::new().name("films".to_string()).spawn(make).context("no thread for films")?;
+        Ok(Self { stop, thread: Some(thread) })
+    }
+}
+
+impl Drop for Films {
+    fn drop(&mut self) {
+        self.stop.ask();
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
         }
-    };
-    thread::Builder::new().name("films".to_string()).spawn(make).context("no thread for films")?;
-    Ok(())
+    }
+}
+
+fn make(folder: &RunFolder, slot: &FilmSlot, shutdown: &Shutdown) {
+    let (begun, mut due) = (Instant::now(), FIRST_AFTER);
+    while !shutdown.asked() {
+        thread::sleep(POLL_EVERY);
+        if begun.elapsed() < due {
+            continue;
+        }
+        match film(folder, shutdown) {
+            Ok(film) => film.into_iter().for_each(|film| slot.put(film)),
+            Err(why) => tracing::debug!(error = %error_chain(&*why), "no film of the robot"),
+        }
+        due = begun.elapsed() + begun.elapsed().min(PAUSE_MAX);
+    }
 }
 
 /// Films an episode of the newest policy; `None` after a request to stop.

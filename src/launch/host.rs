@@ -23,7 +23,9 @@ use treadmill_learner::{
 use treadmill_runtime::{atomic_file, run_folder::RunFolder, run_lock::RunLock, shutdown::Shutdown};
 
 use super::{
-    async_runtime, banner, external_task, films, memory,
+    async_runtime, banner, external_task,
+    films::Films,
+    memory,
     metrics_page::MetricsListener,
     model,
     output::say,
@@ -132,7 +134,7 @@ pub struct Host<'a> {
     run: Arc<OnceLock<String>>,
     /// Films of the robot for TensorBoard.
     films: FilmSlot,
-    filming: OnceLock<()>,
+    filming: OnceLock<Films>,
 }
 
 impl<'a> Host<'a> {
@@ -238,8 +240,8 @@ impl<'a> Host<'a> {
         }
         let pages = banner::Pages { metrics: self.page, watch: self.watch.as_ref().map(|(link, _)| link.clone()) };
         // Films go with evaluations: they are for runs that last. One that leads again has its thread already.
-        if prepared.setup.config.evaluates() && self.filming.set(()).is_ok() {
-            films::make(folder.clone(), self.films.clone(), self.shutdown.clone())?;
+        if prepared.setup.config.evaluates() && self.filming.get().is_none() {
+            let _ = self.filming.set(Films::begin(folder.clone(), self.films.clone())?);
         }
         banner::print_start(&prepared, &self.endpoints, credentials, actors, &pages);
         banner::print_lost_endpoints(&before, &self.endpoints, actors.is_none());

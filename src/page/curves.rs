@@ -14,15 +14,17 @@ use treadmill_proto::{
 };
 use treadmill_runtime::run_folder::RunFolder;
 
-/// Most points of a curve that a page receives when it opens.
+/// Most points of a curve that a page receives when it opens, of one run; and of all runs, for each tag, but at least the last.
 const POINTS_MAX: usize = 1000;
-/// Most curves; metrics of further tags are left out.
+const POINTS_OF_RUNS_MAX: usize = 4000;
+const POINTS_MIN: usize = 125;
+/// Most curves of a run; metrics of further tags are left out.
 const CURVES_MAX: usize = 512;
 
-/// All curves so far, thinned.
+/// All curves so far, thinned: by run, then by tag.
 #[derive(Default)]
 pub struct CurveStore {
-    curves: BTreeMap<(String, String), Thinned>,
+    runs: BTreeMap<String, BTreeMap<String, Thinned>>,
 }
 
 /// Curve with every `stride`-th point.
@@ -36,50 +38,64 @@ impl CurveStore {
     /// Adds points. Where a curve has too many, every second one is dropped.
     pub fn add(&mut self, points: &PageCurves) {
         for PageCurve { run, group, tag, steps, wall_s, values } in &points.curves {
-            let key = (run.clone(), tag.clone());
-            if !self.curves.contains_key(&key) && self.curves.len() >= CURVES_MAX {
+            if !self.runs.contains_key(run) {
+                self.runs.insert(run.clone(), BTreeMap::new());
+                let most = self.points_max();
+                self.runs.values_mut().flat_map(BTreeMap::values_mut).for_each(|curve| curve.thin(most));
+            }
+            let most = self.points_max();
+            let curves = self.runs.entry(run.clone()).or_default();
+            if !curves.contains_key(tag) && curves.len() >= CURVES_MAX {
                 continue;
             }
             let names = [run, group, tag].map(Clone::clone);
-            let new = || empty(names);
-            let thinned = self.curves.entry(key).or_insert_with(|| Thinned { curve: new(), stride: 1, seen: 0 });
+            let new = || Thinned { curve: empty(names), stride: 1, seen: 0 };
+            let thinned = curves.entry(tag.clone()).or_insert_with(new);
             for ((step, wall_s), value) in steps.iter().zip(wall_s).zip(values) {
-                thinned.add(*step, *wall_s, *value);
+                thinned.add([*step, *wall_s, *value], most);
             }
         }
+    }
+
+    /// Returns how many points a curve may have: fewer where there are many runs.
+    fn points_max(&self) -> usize {
+        (POINTS_OF_RUNS_MAX / self.runs.len().max(1)).clamp(POINTS_MIN, POINTS_MAX)
     }
 
     /// Removes the curves of a run. Returns whether there were any.
     pub fn remove(&mut self, run: &str) -> bool {
-        let before = self.curves.len();
-        self.curves.retain(|(of, _), _| of != run);
-        self.curves.len() < before
+        self.runs.remove(run).is_some()
     }
 
     /// Returns the curves of a run.
     pub fn of_run(&self, run: &str) -> PageCurves {
-        let own = self.curves.iter().filter(|((of, _), _)| of == run);
-        PageCurves { curves: own.map(|(_, thinned)| thinned.curve.clone()).collect() }
+        let own = self.runs.get(run).into_iter().flat_map(BTreeMap::values);
+        PageCurves { curves: own.map(|thinned| thinned.curve.clone()).collect() }
     }
 
     /// Returns all curves.
     pub fn whole(&self) -> PageCurves {
-        PageCurves { curves: self.curves.values().map(|thinned| thinned.curve.clone()).collect() }
+        let all = self.runs.values().flat_map(BTreeMap::values);
+        PageCurves { curves: all.map(|thinned| thinned.curve.clone()).collect() }
     }
 }
 
 impl Thinned {
-    fn add(&mut self, step: f64, wall_s: f64, value: f64) {
+    fn add(&mut self, [step, wall_s, value]: [f64; 3], most: usize) {
         self.seen += 1;
         if !(self.seen - 1).is_multiple_of(self.stride) {
             return;
         }
-        let PageCurve { steps, wall_s: times_s, values, .. } = &mut self.curve;
-        steps.push(step);
-        times_s.push(wall_s);
-        values.push(value);
-        if steps.len() >= POINTS_MAX {
-            for numbers in [steps, times_s, values] {
+        self.curve.steps.push(step);
+        self.curve.wall_s.push(wall_s);
+        self.curve.values.push(value);
+        self.thin(most);
+    }
+
+    fn thin(&mut self, most: usize) {
+        while self.curve.steps.len() >= most {
+            let PageCurve { steps, wall_s, values, .. } = &mut self.curve;
+            for numbers in [steps, wall_s, values] {
                 let mut index = 0;
                 numbers.retain(|_| {
                     index += 1;
@@ -152,11 +168,12 @@ impl RunLog {
     }
 }
 
-/// Returns a text that is equal for runs of the same robot whose configurations differ in `[run]` alone, as in the seed;
-/// `None` without a readable configuration.
+/// Returns a text that is equal for runs of the same robot whose configurations differ in seed and labels alone; `None`
+/// without a readable configuration.
 fn group(folder: &RunFolder) -> Option<String> {
     let mut config: toml::Table = std::fs::read_to_string(folder.config()).ok()?.parse().ok()?;
-    config.remove("run");
+    let run = config.get_mut("run").and_then(toml::Value::as_table_mut);
+    run.into_iter().for_each(|run| ["seed", "tags", "description"].iter().for_each(|key| drop(run.remove(*key))));
     let mut hasher = DefaultHasher::new();
     (config.to_string(), std::fs::read(folder.root().join("model.xml")).ok()).hash(&mut hasher);
     Some(format!("{:016x}", hasher.finish()))
@@ -196,6 +213,19 @@ mod tests {
             store.add(&PageCurves { curves: vec![curve(&format!("tag/{number}"), 0..1)] });
         }
         assert_eq!(store.whole().curves.len(), CURVES_MAX);
+    }
+
+    #[test]
+    fn many_runs_have_all_their_curves_of_fewer_points() {
+        let mut store = CurveStore::default();
+        for run in 0..32 {
+            let of_run = |tag| PageCurve { run: format!("walk-{run}"), ..curve(&format!("tag/{tag}"), 0..2000) };
+            store.add(&PageCurves { curves: (0..40).map(of_run).collect() });
+        }
+        let whole = store.whole().curves;
+        assert_eq!(whole.len(), 32 * 40);
+        assert!(whole.iter().all(|curve| (POINTS_MIN / 2..=POINTS_MIN).contains(&curve.steps.len())));
+        assert_eq!(store.of_run("walk-31").curves.len(), 40);
     }
 
     #[test]
@@ -239,6 +269,7 @@ mod tests {
         assert!(!first.is_empty());
         assert_eq!(first, group_of("second", "[run]\nseed = 2\n[ppo]\ngamma = 0.98\n"));
         assert_ne!(first, group_of("third", "[run]\nseed = 1\n[ppo]\ngamma = 0.99\n"));
+        assert_ne!(first, group_of("longer", "[run]\nseed = 1\nsteps = 9\n[ppo]\ngamma = 0.98\n"));
         assert_eq!(group_of("fourth", "no configuration"), "");
     }
 

@@ -12,8 +12,8 @@ use std::{
 use bytes::Bytes;
 use tokio::sync::{broadcast, watch};
 use treadmill_proto::{
-    RunStatus,
-    page::{FromPageKind, PageCommand, PageCurves, PageFrame, PageScene, ToPageKind},
+    ActorStatus, RunStatus,
+    page::{FromPageKind, PageCommand, PageCurves, PageFrame, PageScene, PageStatus, PageSteerer, ToPageKind},
 };
 
 use super::curves::CurveStore;
@@ -24,7 +24,7 @@ pub const PAGES_MAX: usize = 8;
 const FRAMES_MAX: usize = 64;
 /// Points of curves and notices that wait for a page. A page that is slower has to connect again.
 const NEWS_MAX: usize = 256;
-/// Requests of pages that wait; further ones are dropped.
+/// Pushes and worlds that wait; further ones are dropped.
 const ASKED_MAX: usize = 64;
 /// Most actors of a status.
 const ACTORS_MAX: usize = 256;
@@ -51,6 +51,8 @@ struct Shared {
     opened: AtomicU64,
     /// Number of the page whose command the robots follow; 0 without any.
     steerer: watch::Sender<u64>,
+    /// Newest command that the robots have not got yet. Unlike a push it may not be lost.
+    command: Mutex<Option<PageCommand>>,
 }
 
 /// Place of an open page, which is free again when it is dropped.
@@ -73,7 +75,7 @@ pub struct PageView {
     pub notice: Bytes,
     /// Changes when curves are replaced.
     pub generation: watch::Receiver<u64>,
-    /// Number of the page whose command the robots follow, see [`Seat::number`]; 0 without any.
+    /// Number of the page whose command the robots follow, see [`Seat::sees`]; 0 without any.
     pub steerer: watch::Receiver<u64>,
 }
 
@@ -94,6 +96,7 @@ impl Hub {
             steers,
             opened: AtomicU64::new(0),
             steerer: watch::Sender::new(0),
+            command: Mutex::default(),
         };
         (Self { shared: Arc::new(shared), asked }, requests)
     }
@@ -156,10 +159,24 @@ impl Hub {
         let _ = self.shared.frames.send(ToPageKind::Frame(frame).to_bytes().into());
     }
 
+    /// Takes the newest command of the pages, if it is new.
+    #[must_use]
+    pub fn take_command(&self) -> Option<PageCommand> {
+        self.commands().take()
+    }
+
     /// Shows how a run is.
     pub fn show_status(&self, mut status: RunStatus) {
+        let alive = status.actors.iter().filter(|actor| actor.alive).count() as u32;
+        let actors = status.actors.len() as u32;
+        let speed = |actor: &ActorStatus| actor.stats.as_ref().map_or(0.0, |stats| stats.env_steps_per_s);
+        status.actors.sort_by(|one, other| {
+            let rank = |actor: &ActorStatus| (!actor.quarantined, actor.alive);
+            rank(one).cmp(&rank(other)).then(speed(one).total_cmp(&speed(other)))
+        });
         status.actors.truncate(ACTORS_MAX);
-        let _ = self.shared.news.send(ToPageKind::Status(status).to_bytes().into());
+        let shown = PageStatus { status: Some(status), actors, alive };
+        let _ = self.shared.news.send(ToPageKind::Status(shown).to_bytes().into());
     }
 
     /// Shows a line of text.
@@ -194,33 +211,40 @@ impl Hub {
         self.shared.notice.lock().expect("no holder of this lock panics")
     }
 
+    fn commands(&self) -> MutexGuard<'_, Option<PageCommand>> {
+        self.shared.command.lock().expect("no holder of this lock panics")
+    }
+
     fn curves(&self) -> MutexGuard<'_, CurveStore> {
         self.shared.curves.lock().expect("no holder of this lock panics")
     }
 }
 
 impl Seat {
-    /// Number of the page, from 1.
+    /// Returns whose command the robots follow, seen from this page; `steerer` is [`PageView::steerer`].
     #[must_use]
-    pub fn number(&self) -> u64 {
-        self.number
+    pub fn sees(&self, steerer: u64) -> PageSteerer {
+        match steerer {
+            0 => PageSteerer::Nobody,
+            own if own == self.number => PageSteerer::You,
+            _ => PageSteerer::Another,
+        }
     }
 
-    /// Passes on a request of the page; drops it if too many wait.
+    /// Passes on a request of the page. A newer command replaces one that waits; a push or a world is dropped if too many
+    /// wait.
     pub fn ask(&self, request: FromPageKind) {
         let Hub { shared, asked } = &self.hub;
         if !shared.steers {
             return;
         }
-        let commands = match &request {
-            FromPageKind::Command(command) => Some(command.follows),
-            FromPageKind::Push(_) | FromPageKind::World(_) => None,
-        };
-        if asked.try_send(request).is_ok()
-            && let Some(follows) = commands
-        {
-            let steerer = if follows { self.number } else { 0 };
-            shared.steerer.send_if_modified(|known| std::mem::replace(known, steerer) != steerer);
+        match request {
+            FromPageKind::Command(command) => {
+                let steerer = if command.follows { self.number } else { 0 };
+                *self.hub.commands() = Some(command);
+                shared.steerer.send_if_modified(|known| std::mem::replace(known, steerer) != steerer);
+            }
+            FromPageKind::Push(_) | FromPageKind::World(_) => drop(asked.try_send(request)),
         }
     }
 }
@@ -233,5 +257,61 @@ impl Drop for Seat {
         }
         *self.hub.pages() -= 1;
         self.hub.shared.pages_changed.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use treadmill_proto::{
+        ActorStats,
+        page::{PagePush, ToPage},
+    };
+
+    use super::*;
+
+    fn command(follows: bool) -> FromPageKind {
+        FromPageKind::Command(PageCommand { follows, ..PageCommand::default() })
+    }
+
+    #[test]
+    fn the_newest_command_is_never_lost_and_ends_with_its_page() {
+        let (hub, requests) = Hub::new(true);
+        let [one, other] = [hub.seat().unwrap(), hub.seat().unwrap()];
+        let steerer = hub.view().steerer;
+        for _ in 0..2 * ASKED_MAX {
+            one.ask(FromPageKind::Push(PagePush::default()));
+        }
+        one.ask(command(true));
+        assert_eq!(
+            (one.sees(*steerer.borrow()), other.sees(*steerer.borrow())),
+            (PageSteerer::You, PageSteerer::Another)
+        );
+        drop(one);
+        assert_eq!(hub.take_command(), Some(PageCommand::default()), "the robots are free again");
+        assert_eq!((other.sees(*steerer.borrow()), hub.take_command()), (PageSteerer::Nobody, None));
+        assert_eq!(requests.try_iter().count(), ASKED_MAX);
+        let (read_only, _requests) = Hub::new(false);
+        read_only.seat().unwrap().ask(command(true));
+        assert_eq!(read_only.take_command(), None);
+    }
+
+    #[test]
+    fn of_many_actors_those_with_trouble_are_shown() {
+        let (hub, _requests) = Hub::new(false);
+        let mut news = hub.view().news;
+        let actor = |number: usize| ActorStatus {
+            name: format!("actor-{number:03}"),
+            alive: number != 298,
+            quarantined: number == 299,
+            stats: Some(ActorStats { env_steps_per_s: 1000.0 - number as f64, ..ActorStats::default() }),
+            ..ActorStatus::default()
+        };
+        hub.show_status(RunStatus { actors: (0..300).map(actor).collect(), ..RunStatus::default() });
+        let sent = ToPage::from_bytes(&news.try_recv().unwrap()).unwrap();
+        let Some(ToPageKind::Status(PageStatus { status: Some(status), actors: 300, alive: 299 })) = sent.kind else {
+            panic!("not the status of 300 actors")
+        };
+        let first: Vec<&str> = status.actors.iter().take(3).map(|actor| &actor.name[..]).collect();
+        assert_eq!((status.actors.len(), &first[..]), (ACTORS_MAX, &["actor-299", "actor-298", "actor-297"][..]));
     }
 }

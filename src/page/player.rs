@@ -154,8 +154,9 @@ impl Player {
         if stamp == self.stamp {
             return Ok(false);
         }
-        self.stamp = stamp;
+        // The stamp of one that could not be read is not kept, so that it is tried again.
         let saved = saved_policy::load(&self.run, self.which)?;
+        self.stamp = stamp;
         if saved.origin.as_ref().is_none_or(|new| new.env_steps == old_steps) {
             return Ok(false);
         }

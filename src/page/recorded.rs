@@ -73,12 +73,13 @@ impl Recorded {
         });
         let (mut shown_s, mut episodes) = (0.0, 0);
         while !shutdown.asked() {
-            if hub.wait_for_page(IDLE_EVERY)
-                && let Err(why) = self.play(hub, shutdown, &mut shown_s, &mut episodes)
-            {
-                hub.notice(error_chain(&*why));
-                thread::sleep(IDLE_EVERY);
+            if !hub.wait_for_page(IDLE_EVERY) {
+                continue;
             }
+            let played = self.play(hub, shutdown, &mut shown_s, &mut episodes);
+            hub.notice(played.err().map(|why| error_chain(&*why)).unwrap_or_default());
+            // The file may be empty while it is written anew.
+            thread::sleep(IDLE_EVERY);
         }
     }
 
@@ -124,7 +125,15 @@ impl Recorded {
             format!("--trace {path}: the file cannot be read; write one by `treadmill eval RUN --trace {path}`")
         };
         let file = File::open(&self.path).with_context(why)?;
-        Ok(BufReader::new(file).lines())
+        let mut reader = BufReader::new(file);
+        // A last line without its end is still being written.
+        Ok(std::iter::from_fn(move || {
+            let mut line = String::new();
+            match reader.read_line(&mut line) {
+                Ok(_) => line.ends_with('\n').then_some(Ok(line)),
+                Err(why) => Some(Err(why)),
+            }
+        }))
     }
 
     /// Reads a line and puts the robot where it was then.

@@ -126,8 +126,8 @@ async fn converse(mut socket: WebSocket, hub: Hub) {
             },
             changed = steerer.changed() => match changed {
                 Ok(()) => {
-                    let other = *steerer.borrow_and_update();
-                    ToPageKind::OthersSteer(other != 0 && other != seat.number()).to_bytes().into()
+                    let seen = seat.sees(*steerer.borrow_and_update());
+                    ToPageKind::Steerer(seen.into()).to_bytes().into()
                 }
                 Err(_) => return,
             },

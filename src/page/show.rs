@@ -55,6 +55,7 @@ impl Show {
             if !hub.wait_for_page(IDLE_EVERY) {
                 // What was asked for while the last page closed, and its command, end with it.
                 requests.try_iter().for_each(drop);
+                let _ = hub.take_command();
                 stage.iter_mut().for_each(Stage::release);
                 continue;
             }
@@ -80,9 +81,7 @@ impl Show {
             if let Err(why) = stage.play(&self, hub, requests, until, shutdown) {
                 hub.notice(error_chain(&*why));
             }
-            if let Err(why) = stage.refresh(hub) {
-                hub.notice(error_chain(&*why));
-            }
+            stage.refresh(hub);
         }
     }
 }
@@ -146,6 +145,9 @@ impl Stage {
         while Instant::now() < until && hub.has_pages() && !shutdown.asked() {
             // After a stall or without pages it goes on from now: lost time played fast could not be steered.
             self.due = self.due.max(Instant::now().checked_sub(LATE_MAX).unwrap_or(self.due));
+            if let Some(command) = hub.take_command() {
+                self.follow(&command);
+            }
             for request in requests.try_iter() {
                 self.obey(show, hub, &request)?;
             }
@@ -190,11 +192,7 @@ impl Stage {
 
     fn obey(&mut self, show: &Show, hub: &Hub, request: &FromPageKind) -> anyhow::Result<()> {
         match request {
-            FromPageKind::Command(PageCommand { follows, forward_mps, left_mps, yaw_radps }) => {
-                let wanted = [*forward_mps, *left_mps, *yaw_radps].map(f64::from);
-                self.command = follows.then(|| self.within_ranges(wanted));
-                self.players.iter_mut().for_each(|player| player.steer(self.command));
-            }
+            FromPageKind::Command(command) => self.follow(command),
             FromPageKind::Push(PagePush { forward_mps, left_mps }) => {
                 let push_mps = [*forward_mps, *left_mps].map(|speed| f64::from(speed).clamp(-3.0, 3.0));
                 self.players.iter_mut().for_each(|player| player.push(push_mps));
@@ -213,21 +211,27 @@ impl Stage {
         Ok(())
     }
 
+    fn follow(&mut self, command: &PageCommand) {
+        let PageCommand { follows, forward_mps, left_mps, yaw_radps } = *command;
+        let wanted = [forward_mps, left_mps, yaw_radps].map(f64::from);
+        self.command = follows.then(|| self.within_ranges(wanted));
+        self.players.iter_mut().for_each(|player| player.steer(self.command));
+    }
+
     fn within_ranges(&self, command: [f64; 3]) -> [f64; 3] {
         let velocity = &self.players[0].config().velocity;
         let ranges = [velocity.lin_vel_x_mps, velocity.lin_vel_y_mps, velocity.ang_vel_z_radps];
         std::array::from_fn(|entry| command[entry].clamp(ranges[entry][0].min(0.0), ranges[entry][1].max(0.0)))
     }
 
-    /// Loads newer policies.
-    fn refresh(&mut self, hub: &Hub) -> anyhow::Result<()> {
+    /// Loads newer policies. One that cannot be read hinders no other.
+    fn refresh(&mut self, hub: &Hub) {
         for player in &mut self.players {
-            if player.refresh()?
-                && let Some(origin) = player.origin()
-            {
-                hub.notice(format!("{}: {origin}", short(player.run())));
+            match (player.refresh(), player.origin()) {
+                (Ok(true), Some(origin)) => hub.notice(format!("{}: {origin}", short(player.run()))),
+                (Ok(_), _) => {}
+                (Err(why), _) => hub.notice(error_chain(&*why)),
             }
         }
-        Ok(())
     }
 }

@@ -107,10 +107,10 @@ pub const METRICS: &[MetricRow] = metrics! {
     Important "rollout/distance_best_m", "m", "" => Sometimes(|r| r.history.distance_best_m);
     /// Finished episodes.
     Total "rollout/episodes", "count", "" => Always(|r| r.state.episodes.finished as f64);
-    /// Environment steps learnt from, divided by those that actors counted, in the last 10 s. Below 0.9 is an alarm.
+    /// Environment steps learnt from, divided by those that actors counted, in the last 10 s or 20 updates. Below 0.9 is an alarm.
     Important "rollout/used_share", "share", "1" => Sometimes(|r| r.efficiency.used_share);
 
-    /// Environment steps learnt from per second, in the last 10 s, or 20 updates if those take longer.
+    /// Environment steps learnt from per second, in the last 10 s, or in 20 updates if those take longer.
     Important "time/fps", "steps/s", "23000" => Always(|r| r.efficiency.env_steps_per_s);
     /// Updates, undone ones included.
     Total "time/iterations", "count", "" => Always(|r| r.state.counters.updates as f64);
@@ -232,7 +232,7 @@ pub const METRICS: &[MetricRow] = metrics! {
     Important "actors/alive", "count", "2" => Always(|r| r.alive.len() as f64);
     /// Environments of all actors.
     "actors/envs", "count", "64" => Always(|r| r.sum(|stats| stats.envs.into()));
-    /// Time in which actors did not simulate, in the last 10 s. In mode `sync` they wait during updates.
+    /// Time in which actors did not simulate, in the last 10 s or 20 updates. In mode `sync` they wait during updates.
     Important "actors/idle_share", "share", "0.28" => Sometimes(|r| r.efficiency.idle_share);
     /// Actor processes that `train` restarted. 0 in a healthy run.
     Total "actors/restarts", "count", "" => Always(|r| r.state.counters.restarts as f64);
@@ -247,7 +247,7 @@ pub const METRICS: &[MetricRow] = metrics! {
     /// Resident memory of the largest actor; 0 without `/proc`.
     "actors/memory_max_mb", "MB", "39"
         => Always(|r| r.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0) as f64 / 1e6);
-    /// Time in which the learner waited for rollouts, in the last 10 s: the demand for more actors. Never
+    /// Time in which the learner waited for rollouts, in the last 10 s or 20 updates: the demand for more actors. Never
     /// near 0 in mode `sync`.
     "learner/wait_share", "share", "0.69" => Always(|r| r.efficiency.wait_share);
     /// Resident memory of the learner.

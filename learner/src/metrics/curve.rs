@@ -219,8 +219,8 @@ impl Image<'_> {
 
     /// Returns run, task, steps and day.
     fn header(&self) -> String {
-        let CurvePoints { run, last_unix_s, resumes, .. } = &self.points;
-        let resumed = match resumes.len() {
+        let CurvePoints { run, last_unix_s, resumed, .. } = &self.points;
+        let resumed = match resumed {
             0 => String::new(),
             1 => ", resumed once".to_string(),
             times => format!(", resumed {times} times"),

@@ -21,8 +21,9 @@ pub struct CurvePoints {
     pub run: String,
     /// Time of the last metric (s since 1970).
     pub last_unix_s: f64,
-    /// Millions of environment steps at each resume.
+    /// Millions of environment steps where the number of resumes grew, and that number.
     pub resumes: Vec<f64>,
+    pub resumed: u64,
 }
 
 impl CurvePoints {
@@ -35,6 +36,7 @@ impl CurvePoints {
             if metric.tag == RESUMES_TAG {
                 found.resumes.extend(before.filter(|(_, resumes)| metric.value > *resumes).map(|(step, _)| step));
                 before = Some(point);
+                found.resumed = metric.value as u64;
             }
             if let Some(tag) = tags.iter().position(|tag| *tag == metric.tag)
                 && point.0 <= DRAWABLE_MAX

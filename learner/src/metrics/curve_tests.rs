@@ -117,7 +117,7 @@ fn resumes_are_where_their_number_grows() {
     let metrics = resumes.map(|(step, count)| line("time/resumes", step * 1_000_000, count)).concat();
     fs::write(&path, metrics).unwrap();
     let points = CurvePoints::read(File::open(&path).unwrap(), &[]).unwrap();
-    assert_eq!((points.resumes, &*points.run), (vec![2.0, 4.0], "r"));
+    assert_eq!((points.resumes, points.resumed, &*points.run), (vec![2.0, 4.0], 3, "r"));
 }
 
 #[test]

@@ -13,6 +13,8 @@ const LONGER: f64 = 1.1;
 /// A robot only stands if its velocity error is above this share of that of a standing one. Without commands it stands if it
 /// does not get farther than this (m).
 const STANDING_ERROR: f64 = 0.9;
+/// Mean commanded speed (m/s) below which standing may be what is wanted.
+const COMMANDED_MPS_MIN: f64 = 0.1;
 const STANDING_M: f64 = 0.5;
 
 /// How long a robot has only stood or fallen.
@@ -44,7 +46,10 @@ impl Stuck {
         let falls = means.fall_fraction > FALLS;
         let stands = !falls
             && match has_commands {
-                true => error_mps.is_some_and(|error| error > STANDING_ERROR * standing_mps),
+                true => {
+                    standing_mps >= COMMANDED_MPS_MIN
+                        && error_mps.is_some_and(|error| error > STANDING_ERROR * standing_mps)
+                }
                 false => means.distance_mean_m < STANDING_M,
             };
         let is_longer = falls && means.length_mean > LONGER * self.longest;
@@ -120,5 +125,8 @@ mod tests {
         let text = record(2 * STEPS, Some(0.46)).unwrap();
         assert!(text.contains("by 0.46 m/s, a standing one by 0.50"), "{text}");
         assert_eq!(record(2 * STEPS + 1, Some(0.44)), None);
+        config.velocity.standing_share = 1.0;
+        let mut record = |steps| stuck.record(means(1000.0, 0.1, 0.0), Some(0.03), steps, &config);
+        assert_eq!((record(3 * STEPS), record(5 * STEPS)), (None, None), "it stands as it is commanded");
     }
 }
