@@ -112,7 +112,7 @@ export class Steering {
 
   /** Takes whose command the robots follow. */
   setSteerer(steerer: PageSteerer): void {
-    const wasLost = this.isNew && this.follows && steerer === PageSteerer.NOBODY;
+    const wasLost = this.isNew && this.follows && steerer === PageSteerer.FREE;
     this.isNew = false;
     // A server that was started anew does not know the command of before.
     if (wasLost) return this.send();

@@ -14,7 +14,8 @@ use treadmill_proto::{
 };
 use treadmill_runtime::run_folder::RunFolder;
 
-/// Most points of a curve that a page receives when it opens, of one run; and of all runs, for each tag, but at least the last.
+/// Most points of a curve that a page receives when it opens. For each tag, the curves of all runs together have fewer than
+/// the second number, unless each has fewer than the third.
 const POINTS_MAX: usize = 1000;
 const POINTS_OF_RUNS_MAX: usize = 4000;
 const POINTS_MIN: usize = 125;

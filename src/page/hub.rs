@@ -225,7 +225,7 @@ impl Seat {
     #[must_use]
     pub fn sees(&self, steerer: u64) -> PageSteerer {
         match steerer {
-            0 => PageSteerer::Nobody,
+            0 => PageSteerer::Free,
             own if own == self.number => PageSteerer::You,
             _ => PageSteerer::Another,
         }
@@ -288,7 +288,7 @@ mod tests {
         );
         drop(one);
         assert_eq!(hub.take_command(), Some(PageCommand::default()), "the robots are free again");
-        assert_eq!((other.sees(*steerer.borrow()), hub.take_command()), (PageSteerer::Nobody, None));
+        assert_eq!((other.sees(*steerer.borrow()), hub.take_command()), (PageSteerer::Free, None));
         assert_eq!(requests.try_iter().count(), ASKED_MAX);
         let (read_only, _requests) = Hub::new(false);
         read_only.seat().unwrap().ask(command(true));

@@ -39,6 +39,17 @@ fn pseudo_terminal() -> [OwnedFd; 2] {
     }
 }
 
+/// Sets what a program does at a hang-up, whatever the tests were started by: what it inherits as ignored stays ignored.
+fn at_hangup(command: &mut Command, action: libc::sighandler_t) {
+    // SAFETY: a system call that takes two numbers.
+    unsafe {
+        command.pre_exec(move || {
+            libc::signal(libc::SIGHUP, action);
+            Ok(())
+        });
+    }
+}
+
 /// Starts a program on a new terminal, whose other end is returned.
 fn spawn_on_terminal(mut command: Command) -> (File, Child) {
     let [outer, inner] = pseudo_terminal();
@@ -161,16 +172,8 @@ fn a_dashboard_and_a_training_end_with_their_terminal() {
     for ignores_hangups in [false, true] {
         let mut command = treadmill(folder.path());
         command.args(["status", "run", "--watch"]);
-        if ignores_hangups {
-            // As `nohup` does.
-            // SAFETY: a system call that takes two numbers.
-            unsafe {
-                command.pre_exec(|| {
-                    libc::signal(libc::SIGHUP, libc::SIG_IGN);
-                    Ok(())
-                });
-            }
-        }
+        // As `nohup` does.
+        at_hangup(&mut command, if ignores_hangups { libc::SIG_IGN } else { libc::SIG_DFL });
         let (mut keyboard, mut child) = spawn_on_terminal(command);
         // Once it draws on the other screen, it reads keys.
         let (mut seen, mut bytes) = (Vec::<u8>::new(), [0; 256]);
@@ -186,6 +189,7 @@ fn a_dashboard_and_a_training_end_with_their_terminal() {
     let run = folder.path().join("other");
     let mut command = treadmill(folder.path());
     command.args(["train", "--steps", ENDLESS, "--preset", "smoke", "--run-dir", "other", "--no-progress"]);
+    at_hangup(&mut command, libc::SIG_DFL);
     // What it prints until then fits into the terminal's buffer.
     let (keyboard, mut child) = spawn_on_terminal(command);
     await_steps(&run, 1024);

@@ -107,7 +107,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     Important "rollout/distance_best_m", "m", "" => Sometimes(|r| r.history.distance_best_m);
     /// Finished episodes.
     Total "rollout/episodes", "count", "" => Always(|r| r.state.episodes.finished as f64);
-    /// Environment steps learnt from, divided by those that actors counted, in the last 10 s or 20 updates. Below 0.9 is an alarm.
+    /// Environment steps learnt from, divided by those that actors counted, in the last 10 s or 20 updates. Below 0.9 is an
+    /// alarm.
     Important "rollout/used_share", "share", "1" => Sometimes(|r| r.efficiency.used_share);
 
     /// Environment steps learnt from per second, in the last 10 s, or in 20 updates if those take longer.
