@@ -22,7 +22,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
     commands::{
-        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, robot, router, runs,
+        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, motion, robot, router, runs,
         status, train, watch,
     },
     launch::{exit_code, familiar_flags, log, output, processor, restart},
@@ -57,6 +57,8 @@ enum Command {
     Export(export::ExportArgs),
     /// Print what was understood of a robot's file, and draft its card.
     Robot(robot::RobotArgs),
+    /// Print what was understood of a motion file, make a film of it, and write it in mjlab's form.
+    Motion(motion::MotionCommandArgs),
     /// Compare runs: distance walked, training time, and differences in configuration.
     Runs(runs::RunsArgs),
     /// Show the state of runs and of their actors.
@@ -132,6 +134,7 @@ fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
         Command::Watch(args) => watch::run(&args, tasks),
         Command::Export(args) => export::run(&args, tasks),
         Command::Robot(args) => robot::run(&args),
+        Command::Motion(args) => motion::run(&args),
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),
         Command::Control(args) => control::run(args),

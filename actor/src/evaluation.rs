@@ -2,7 +2,9 @@
 //!
 //! # Layout
 //! - [`tracking`]: how well a robot follows its commands.
+//! - [`imitation`]: how well it imitates a motion.
 
+pub mod imitation;
 pub mod tracking;
 
 use std::ops::ControlFlow;
@@ -10,6 +12,7 @@ use std::ops::ControlFlow;
 use treadmill_humanoid::Environment;
 use treadmill_runtime::seeds;
 
+use self::imitation::{Imitation, Imitator};
 use self::tracking::{Tracker, Tracking, TrackingSample};
 use crate::{ActorError, agent::Agent};
 
@@ -30,6 +33,8 @@ pub struct EpisodeResult {
     pub fault: bool,
     /// How well it followed its commands; none for tasks without commands.
     pub tracking: Option<Tracking>,
+    /// How well it imitated its motion; none for tasks without motions.
+    pub imitation: Option<Imitation>,
 }
 
 /// Joint limit violations over every step of every episode.
@@ -107,6 +112,11 @@ impl Evaluation {
         self.episodes.iter().filter(|episode| episode.fell).count()
     }
 
+    /// Returns how well motions were imitated in all episodes; `None` for tasks without motions.
+    pub fn imitation(&self) -> Option<Imitation> {
+        self.episodes.iter().filter_map(|episode| episode.imitation).reduce(Imitation::with)
+    }
+
     /// Returns how well commands were followed in all episodes; `None` for tasks without commands.
     pub fn tracking(&self) -> Option<Tracking> {
         self.episodes.iter().filter_map(|episode| episode.tracking).reduce(Tracking::with)
@@ -149,6 +159,7 @@ pub fn evaluate_commanded(
         let start_x_m = environment.physics().position()[0];
         let mut result = EpisodeResult::default();
         let mut tracker = environment.task().command().map(|_| Tracker::new(control_step_s));
+        let mut imitator = Imitator::of(environment);
         let mut changes = None;
         loop {
             agent.act(&observation, &mut action)?;
@@ -179,11 +190,15 @@ pub fn evaluate_commanded(
                     tracker.record(&TrackingSample { command, is_new_command, is_pushed, ..sample });
                 }
             }
+            if let Some(imitator) = imitator.as_mut().filter(|_| !step.fault) {
+                imitator.record(environment);
+            }
             let has_ended = step.terminated || step.truncated;
             if has_ended {
                 result.fell = step.terminated && !step.fault;
                 result.velocity_mps = result.distance_m / (f64::from(result.length) * control_step_s);
                 result.tracking = tracker.as_ref().map(Tracker::sums);
+                result.imitation = imitator.take().map(|imitator| imitator.end(step.terminated));
                 agent.episode_ended();
                 results.push(result);
             }

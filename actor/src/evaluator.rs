@@ -85,7 +85,7 @@ fn play(
         let seed = settings.run.seed.wrapping_add(u64::from(episode));
         all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| ControlFlow::Continue(()))?.episodes);
     }
-    let tracking = all.tracking();
+    let (tracking, imitation) = (all.tracking(), all.imitation());
     Ok(Some(EvaluationReport {
         run: bundle.run.clone(),
         evaluator,
@@ -99,5 +99,10 @@ fn play(
         falls: all.falls() as u32,
         velocity_error_mps: tracking.and_then(|tracking| tracking.velocity_error_mps()),
         yaw_rate_error_radps: tracking.and_then(|tracking| tracking.yaw_rate_error_radps()),
+        anchor_error_m: imitation.map(|imitation| imitation.anchor_error_m()),
+        body_error_m: imitation.map(|imitation| imitation.body_error_m()),
+        body_error_rad: imitation.map(|imitation| imitation.body_error_rad()),
+        hinge_error_rad: imitation.map(|imitation| imitation.hinge_error_rad()),
+        done_share: imitation.map(|imitation| imitation.done_share()),
     }))
 }

@@ -33,6 +33,16 @@ pub struct EvaluationReport {
     pub velocity_error_mps: Option<f64>,
     /// Mean error of the base's yaw rate (rad/s); only for tasks with commands.
     pub yaw_rate_error_radps: Option<f64>,
+    /// Mean distance of the anchor from that of the motion (m); only for tasks with motions, as the rest.
+    pub anchor_error_m: Option<f64>,
+    /// Mean distance of the compared links from those of the motion (m).
+    pub body_error_m: Option<f64>,
+    /// Mean angle between them (rad).
+    pub body_error_rad: Option<f64>,
+    /// Mean of the hinges' root mean square error (rad).
+    pub hinge_error_rad: Option<f64>,
+    /// Mean share of the motion that was done.
+    pub done_share: Option<f64>,
 }
 
 impl EvaluationReport {
@@ -41,7 +51,8 @@ impl EvaluationReport {
         message!(
             wire::EvaluationReport,
             clone self [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps,
-                falls, velocity_error_mps, yaw_rate_error_radps],
+                falls, velocity_error_mps, yaw_rate_error_radps, anchor_error_m, body_error_m, body_error_rad, hinge_error_rad,
+                done_share],
             { version: Some(self.version) }
         )
         .encode_to_vec()
@@ -63,8 +74,17 @@ impl EvaluationReport {
         ] {
             check_finite(field, [value])?;
         }
-        check_finite("velocity_error_mps", message.velocity_error_mps)?;
-        check_finite("yaw_rate_error_radps", message.yaw_rate_error_radps)?;
+        for (field, value) in [
+            ("velocity_error_mps", message.velocity_error_mps),
+            ("yaw_rate_error_radps", message.yaw_rate_error_radps),
+            ("anchor_error_m", message.anchor_error_m),
+            ("body_error_m", message.body_error_m),
+            ("body_error_rad", message.body_error_rad),
+            ("hinge_error_rad", message.hinge_error_rad),
+            ("done_share", message.done_share),
+        ] {
+            check_finite(field, value)?;
+        }
         if message.episodes == 0 {
             return Err(Malformed::field("episodes", 0, "at least 1"));
         }
@@ -74,7 +94,8 @@ impl EvaluationReport {
         Ok(message!(
             Self,
             message [run, evaluator, episodes, return_mean, return_std, length_mean, distance_mean_m, velocity_mean_mps,
-                falls, velocity_error_mps, yaw_rate_error_radps],
+                falls, velocity_error_mps, yaw_rate_error_radps, anchor_error_m, body_error_m, body_error_rad, hinge_error_rad,
+                done_share],
             { version: version::required(message.version)? }
         ))
     }
@@ -99,11 +120,16 @@ mod tests {
             falls: 1,
             velocity_error_mps: Some(0.0),
             yaw_rate_error_radps: Some(0.25),
+            anchor_error_m: Some(0.1),
+            body_error_m: Some(0.05),
+            body_error_rad: Some(0.2),
+            hinge_error_rad: Some(0.3),
+            done_share: Some(0.95),
         };
         assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report.clone()));
         let without = EvaluationReport { velocity_error_mps: None, yaw_rate_error_radps: None, ..report.clone() };
         assert_eq!(EvaluationReport::decode(&without.encode()), Ok(without));
-        let corruptions: [fn(&mut EvaluationReport); 8] = [
+        let corruptions: [fn(&mut EvaluationReport); 10] = [
             |report| report.run = "a/b".into(),
             |report| report.evaluator = String::new(),
             |report| report.episodes = 0,
@@ -112,6 +138,8 @@ mod tests {
             |report| report.velocity_mean_mps = f64::INFINITY,
             |report| report.velocity_error_mps = Some(f64::NAN),
             |report| report.yaw_rate_error_radps = Some(f64::INFINITY),
+            |report| report.body_error_m = Some(f64::NAN),
+            |report| report.done_share = Some(f64::INFINITY),
         ];
         for corrupt in corruptions {
             let mut bad = report.clone();

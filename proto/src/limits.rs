@@ -32,7 +32,7 @@ pub const GROUND_KINDS_MAX: u32 = 64;
 /// Largest encoded state of an actor, which is part of fragments and bundles.
 pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
 /// Longest model text, equal to the environment's limit.
-pub const MODEL_BYTES_MAX: usize = 4 << 20;
+pub const MODEL_BYTES_MAX: usize = 16 << 20;
 /// Largest message of any other kind: receipts, statistics, announcements, JSON.
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
 /// Largest statistics message of an actor.

@@ -14,7 +14,10 @@
 use bytes::Bytes;
 use prost::Message;
 
-use crate::{planes, wire_onnx as wire};
+use crate::{
+    planes,
+    wire_onnx::{self as wire, tensor_shape_proto::dimension::Value as Side},
+};
 
 /// Version of the file format with operator set 13.
 const IR_VERSION: i64 = 7;
@@ -49,6 +52,18 @@ impl Ports {
     pub const UNITREE: Self = Self { input: "obs", output: "actions", batch: Some(1) };
 }
 
+/// Motion that a model gives out beside the action: row `time_step` of each table, or the last one.
+#[derive(Clone, Debug, Default)]
+pub struct OnnxMotion {
+    /// Rows of each table.
+    pub rows: usize,
+    /// Name of an output, shape of one row, and all rows.
+    pub tables: Vec<(&'static str, Vec<usize>, Vec<f32>)>,
+}
+
+/// Name of the input that chooses the row of a motion, `[1, 1]`, float32 as in mjlab.
+pub const TIME_STEP: &str = "time_step";
+
 /// Policy to encode as a model.
 #[derive(Clone, Debug)]
 pub struct OnnxPolicy<'a> {
@@ -66,6 +81,8 @@ pub struct OnnxPolicy<'a> {
     pub high: &'a [f32],
     /// Input and output.
     pub ports: Ports,
+    /// Motion, for policies that imitate one.
+    pub motion: Option<&'a OnnxMotion>,
     /// What the model turns into what, for readers.
     pub doc: &'a str,
     /// Names and values of the model's metadata.
@@ -105,6 +122,8 @@ impl OnnxPolicy<'_> {
         let zeros = graph.node("Sub", &[input, input], "zeros", &[]);
         let fault = graph.node("ReduceSum", &[&zeros, "entries"], "fault", &[whole("keepdims", 1)]);
         graph.node("Add", &[&x, &fault], output, &[]);
+        let motion = self.motion.map(|motion| graph.motion(motion)).unwrap_or_default();
+        let time_step = self.motion.map(|_| value(TIME_STEP, &[Side::DimValue(1), Side::DimValue(1)]));
         let model = wire::ModelProto {
             ir_version: IR_VERSION,
             producer_name: "treadmill".to_string(),
@@ -115,8 +134,8 @@ impl OnnxPolicy<'_> {
                 node: graph.nodes,
                 name: "policy".to_string(),
                 initializer: graph.constants,
-                input: vec![port(input, batch, self.mean.len())],
-                output: vec![port(output, batch, self.low.len())],
+                input: std::iter::once(port(input, batch, self.mean.len())).chain(time_step).collect(),
+                output: std::iter::once(port(output, batch, self.low.len())).chain(motion).collect(),
             }),
             metadata_props: self
                 .metadata
@@ -156,6 +175,24 @@ impl Graph {
         output.to_string()
     }
 
+    /// Adds the tables of a motion; returns their outputs.
+    fn motion(&mut self, motion: &OnnxMotion) -> Vec<wire::ValueInfoProto> {
+        let row = self.clip(TIME_STEP, "row_within", 0.0, motion.rows.saturating_sub(1) as f32);
+        let row = self.node("Cast", &[&row], "row_whole", &[whole("to", INT64.into())]);
+        self.tensor("row_shape", &[1], INT64, 1_i64.to_le_bytes().to_vec().into());
+        let row = self.node("Reshape", &[&row, "row_shape"], "row", &[]);
+        let output = |(name, shape, numbers): &(&'static str, Vec<usize>, Vec<f32>)| {
+            let table = format!("motion.{name}");
+            let whole_shape: Vec<usize> = std::iter::once(motion.rows).chain(shape.iter().copied()).collect();
+            self.constant(&table, &whole_shape, numbers);
+            self.node("Gather", &[&table, &row], name, &[whole("axis", 0)]);
+            let sides: Vec<Side> =
+                std::iter::once(1).chain(shape.iter().copied()).map(|side| Side::DimValue(side as i64)).collect();
+            value(name, &sides)
+        };
+        motion.tables.iter().map(output).collect()
+    }
+
     fn clip(&mut self, input: &str, output: &str, low: f32, high: f32) -> String {
         let names = [format!("{output}_min"), format!("{output}_max")];
         self.constant(&names[0], &[], &[low]);
@@ -172,10 +209,14 @@ fn whole(name: &str, i: i64) -> wire::AttributeProto {
 
 /// Returns an input or output of shape `[batch, width]`.
 fn port(name: &str, batch: Option<i64>, width: usize) -> wire::ValueInfoProto {
-    use wire::tensor_shape_proto::{Dimension, dimension::Value};
-    let batch = batch.map_or_else(|| Value::DimParam("batch".to_string()), Value::DimValue);
-    let dim = [batch, Value::DimValue(width as i64)];
-    let shape = wire::TensorShapeProto { dim: dim.map(|value| Dimension { value: Some(value) }).to_vec() };
+    value(name, &[batch.map_or_else(|| Side::DimParam("batch".to_string()), Side::DimValue), Side::DimValue(width as i64)])
+}
+
+/// Returns an input or output of a shape.
+fn value(name: &str, sides: &[Side]) -> wire::ValueInfoProto {
+    use wire::tensor_shape_proto::Dimension;
+    let dim = sides.iter().map(|side| Dimension { value: Some(side.clone()) }).collect();
+    let shape = wire::TensorShapeProto { dim };
     let tensor = wire::type_proto::Tensor { elem_type: FLOAT32, shape: Some(shape) };
     wire::ValueInfoProto {
         name: name.to_string(),

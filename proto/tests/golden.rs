@@ -141,6 +141,11 @@ fn evaluation() -> EvaluationReport {
         falls: 1,
         velocity_error_mps: None,
         yaw_rate_error_radps: None,
+        anchor_error_m: None,
+        body_error_m: None,
+        body_error_rad: None,
+        hinge_error_rad: None,
+        done_share: None,
     }
 }
 

@@ -8,6 +8,7 @@ Modules:
   commands    schedules of commands and pushes
   errors      how well commands are followed
   play        episodes
+  motion      policies that imitate a motion
   trace       comparison with a trace of `treadmill eval --trace`
   cli         command line
 """

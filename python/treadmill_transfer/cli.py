@@ -8,7 +8,7 @@ import sys
 import time
 import warnings
 
-from . import walk
+from . import motion, walk
 from .commands import read_commands
 from .contract import Policy, TransferError
 from .controller import Controller
@@ -84,6 +84,8 @@ def main(arguments=None):
         policy = Policy(args.policy)
         if isinstance(policy.contract, walk.WalkContract):
             return walked(args, policy)
+        if isinstance(policy.contract, motion.MotionContract):
+            return imitated(args, policy)
         ground = read_ground(args.ground) if args.ground else None
         rows = read_commands(args.commands) if args.commands else None
         robot = Robot(args.model, policy.contract, args.timestep, ground)
@@ -135,6 +137,38 @@ def walked(args, policy):
     print(f"distance        {result['distance_mean_m']:.2f} m")
     print(f"velocity        {result['velocity_mean_mps']:.2f} m/s")
     print(f"length          {result['length_mean']:.1f} steps")
+    return 0
+
+
+def imitated(args, policy):
+    """Plays a policy of the motion task. Returns the exit code."""
+    unused = [flag for flag, value in (("--commands", args.commands), ("--ground", args.ground), ("--trace", args.trace)) if value]
+    if unused:
+        raise TransferError(f"{unused[0]} is not for policies of the motion task; leave it out")
+    imitator = motion.Imitator(args.model, policy, args.timestep)
+    for note in [] if args.json else imitator.notes:
+        print(f"note: {note}", file=sys.stderr)
+    with Shown(args, imitator) as shown:
+        episodes = []
+        if not args.json:
+            print("episode  length  done %  bodies cm  bodies deg  end")
+        for index in range(args.episodes):
+            episode = motion.play_episode(imitator, args.seed, index, not args.no_pushes, shown.next_episode())
+            episodes.append(episode)
+            if not args.json:
+                done, bodies, turned = 100.0 * episode["done_share"], 100.0 * episode["body_error_m"], math.degrees(episode["body_error_rad"])
+                end = "fell" if episode["fell"] else "finished"
+                print(f"{index + 1:>7} {episode['length']:>7} {done:>7.0f} {bodies:>10.1f} {turned:>11.1f}  {end}", flush=True)
+            if shown.is_closed():
+                break
+    result = motion.summary(episodes)
+    if args.json:
+        print(json.dumps(result))
+        return 0
+    print()
+    print(f"finished        {result['finished']} of {result['episodes']}; {100.0 * result['done_share']:.1f} % of the motion in the mean")
+    print(f"anchor          {100.0 * result['anchor_error_m']:.1f} cm")
+    print(f"bodies          {100.0 * result['body_error_m']:.1f} cm, {math.degrees(result['body_error_rad']):.1f} degrees")
     return 0
 
 

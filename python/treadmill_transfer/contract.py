@@ -109,8 +109,22 @@ class Policy:
     def act(self, observation):
         """Returns the action of a whole observation, in units of the action."""
         batch = numpy.asarray(observation, dtype=numpy.float32)[None]
-        (action,) = self._session.run([self._output], {self._input: batch})
+        (action,) = self._session.run([self._output], {self._input: batch, **self._row(0)})
         return action[0].astype(float)
+
+    def _row(self, row):
+        """Returns the input that chooses the row of a motion, if there is one."""
+        has_row = len(self._session.get_inputs()) > 1
+        return {self._session.get_inputs()[1].name: numpy.array([[row]], dtype=numpy.float32)} if has_row else {}
+
+    def tables(self, rows, names):
+        """Returns the tables of a motion that the model gives out, by their names."""
+        known = [output.name for output in self._session.get_outputs()]
+        if missing := [name for name in names if name not in known]:
+            raise TransferError(f"the model has no output `{missing[0]}`; {EXPORT}")
+        batch = numpy.zeros((1, self.contract.width), dtype=numpy.float32)
+        found = [self._session.run(list(names), {self._input: batch, **self._row(row)}) for row in range(rows)]
+        return {name: numpy.concatenate([of_row[index] for of_row in found]).astype(float) for index, name in enumerate(names)}
 
 
 def one_line(why):
@@ -132,13 +146,15 @@ def read_contract(text):
         from .walk import read_walk_contract
 
         return read_walk_contract(fields)
-    joints = _joints(fields)
-    scale = fields.numbers("action_scale", len(joints.names))
+    if "motion" in whole:
+        from .motion import read_motion_contract
+
+        return read_motion_contract(fields, _servos(fields))
+    # Files of older versions have bases that face along x, and exclude nothing.
+    whole.setdefault("base_turn_wxyz", [1.0, 0.0, 0.0, 0.0])
+    whole.setdefault("excluded_bodies", [])
     commands, history, fall = fields.part("commands"), fields.part("history"), fields.part("fall")
     scan = fields.part("height_scan")
-    terms = fields.get("observation")
-    if not isinstance(terms, list) or not all(isinstance(term, dict) and {"name", "size"} <= set(term) for term in terms):
-        raise TransferError("`observation` is not a list of terms with `name` and `size`")
 
     # Files of older versions have a gait that never rests.
     def of_rest(name, without):
@@ -146,19 +162,7 @@ def read_contract(text):
         return fields.number(key) if key in whole else without
 
     return Contract(
-        control_step_s=fields.number("control_step_s", above=0.0),
-        joints=joints,
-        action_scale=scale,
-        action_limit=fields.number("action_limit", above=0.0),
-        held=_joints(fields.part("held_joints")),
-        base_body=fields.get("base_body"),
-        # Files of older versions have bases that face along x.
-        base_turn_wxyz=fields.numbers("base_turn_wxyz", 4) if "base_turn_wxyz" in whole else numpy.array([1.0, 0.0, 0.0, 0.0]),
-        excluded_bodies=_pairs(whole.get("excluded_bodies", [])),
-        feet_bodies=fields.names("feet_bodies"),
-        base_height_m=fields.number("default_base_height_m", above=0.0),
-        base_orientation_wxyz=fields.numbers("default_base_orientation_wxyz", 4),
-        observation=[(term["name"], term["size"]) for term in terms],
+        **_servos(fields),
         history=int(history.number("frames", above=0.0)),
         gait_period_s=fields.number("gait_period_s", above=0.0),
         gait_rests_below=of_rest("below", 0.0),
@@ -179,6 +183,27 @@ def read_contract(text):
         push_interval_s=tuple(fields.numbers("push_interval_s", 2)),
         push_mps=tuple(fields.numbers("push_mps", 2)),
     )
+
+
+def _servos(fields):
+    """Returns what a robot with servos needs, by its names in a contract."""
+    joints, terms = _joints(fields), fields.get("observation")
+    if not isinstance(terms, list) or not all(isinstance(term, dict) and {"name", "size"} <= set(term) for term in terms):
+        raise TransferError("`observation` is not a list of terms with `name` and `size`")
+    return {
+        "control_step_s": fields.number("control_step_s", above=0.0),
+        "joints": joints,
+        "action_scale": fields.numbers("action_scale", len(joints.names)),
+        "action_limit": fields.number("action_limit", above=0.0),
+        "held": _joints(fields.part("held_joints")),
+        "base_body": fields.get("base_body"),
+        "base_turn_wxyz": fields.numbers("base_turn_wxyz", 4),
+        "excluded_bodies": _pairs(fields.get("excluded_bodies")),
+        "feet_bodies": fields.names("feet_bodies"),
+        "base_height_m": fields.number("default_base_height_m", above=0.0),
+        "base_orientation_wxyz": fields.numbers("default_base_orientation_wxyz", 4),
+        "observation": [(term["name"], term["size"]) for term in terms],
+    }
 
 
 def _pairs(found):

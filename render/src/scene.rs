@@ -83,6 +83,17 @@ impl Scene {
         Self { placed, robot, field }
     }
 
+    /// Adds another robot with this look at its current pose, in one colour and without a shadow.
+    pub fn add_ghost(&mut self, look: &Look, physics: &Physics, colour: Colour) {
+        let poses: Vec<Isometry3<f32>> = physics.body_motions().map(|motion| motion.pose.cast()).collect();
+        self.placed.extend(look.skins.iter().map(|(body, skin, _)| PlacedSkin {
+            skin: skin.clone(),
+            pose: poses[*body],
+            colour: Some(colour),
+            is_solid: false,
+        }));
+    }
+
     /// Adds a horizontal arrow with a ball as its tip, from a point in the world.
     pub fn add_arrow(&mut self, from_m: [f64; 3], along_m: [f64; 2], colour: Colour) {
         let from_m = Point3::from(from_m);

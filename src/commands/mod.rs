@@ -4,7 +4,7 @@
 //! - Training: [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].
 //! - While a run trains: [`status`], [`control`].
 //! - Trained policies: [`eval`], [`watch`], [`export`], [`runs`].
-//! - Robots: [`robot`].
+//! - Robots: [`robot`], [`motion`].
 //! - Machine and program: [`check`], [`bench`], [`config`], [`manual`] (`completions`, `man`, `reference`).
 
 pub(crate) mod actor;
@@ -18,6 +18,7 @@ pub(crate) mod evaluator;
 pub(crate) mod export;
 pub(crate) mod learner;
 pub(crate) mod manual;
+pub(crate) mod motion;
 pub(crate) mod robot;
 pub(crate) mod router;
 pub(crate) mod runs;

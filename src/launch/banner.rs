@@ -5,7 +5,7 @@ use std::{net::SocketAddr, path::Path};
 
 use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
-use treadmill_humanoid::{Model, worlds_per_pass};
+use treadmill_humanoid::{Model, motion::Motion, worlds_per_pass};
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
@@ -43,6 +43,7 @@ pub fn print_start(
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
         (0, ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4, _) => "training a humanoid to walk".to_string(),
         (0, ChosenTask::Velocity, _) => "training a robot to follow commands".to_string(),
+        (0, ChosenTask::Motion, _) => "training a robot to imitate motions".to_string(),
         (0, ChosenTask::External, "") => "training the task that its first actor registers".to_string(),
         (0, ChosenTask::External | ChosenTask::Own(_), _) => format!("training `{}`", config.task_name()),
     };
@@ -100,7 +101,12 @@ pub fn print_start(
 
 /// Describes the robot of a velocity run.
 fn robot(config: &Config, model_xml: &str) -> Option<String> {
-    let model = Model::from_mjcf(model_xml).ok().filter(|_| config.env.chosen_task() == ChosenTask::Velocity)?;
+    let model = Model::from_mjcf(model_xml).ok()?;
+    match config.env.chosen_task() {
+        ChosenTask::Velocity => {}
+        ChosenTask::Motion => return Some(imitator(&model)),
+        _ => return None,
+    }
     let feet: Vec<&str> =
         model.robot.iter().flat_map(|robot| &robot.feet).map(|foot| &*model.links[*foot].name).collect();
     let [back_mps, forward_mps] = config.velocity.lin_vel_x_mps;
@@ -111,6 +117,17 @@ fn robot(config: &Config, model_xml: &str) -> Option<String> {
         model.motors.len(),
         model.hinges.len()
     ))
+}
+
+/// Describes the robot of a motion run.
+fn imitator(model: &Model) -> String {
+    let seconds: f64 = model.motions.iter().map(Motion::duration_s).sum();
+    let motions = match &*model.motions {
+        [motion] => format!("`{}`, {seconds:.1} s", motion.name),
+        motions => format!("{} motions, {seconds:.1} s", motions.len()),
+    };
+    let (moved, hinges) = (model.motors.len(), model.hinges.len());
+    format!("{:.1} kg; the policy moves {moved} of {hinges} hinges; imitates {motions}", model.mass_kg())
 }
 
 /// Returns the command that starts an actor of this run.
@@ -128,6 +145,7 @@ fn goal(config: &Config, steps: u64) -> String {
     let left = wanted.saturating_sub(steps);
     let goal = match config.env.chosen_task() {
         ChosenTask::External | ChosenTask::Own(_) => "to earn the task's rewards",
+        ChosenTask::Motion => "to stay with the motions to their ends",
         ChosenTask::Velocity => "to follow velocity commands and not to fall",
         ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => "to go forward and not to fall",
     };

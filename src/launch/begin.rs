@@ -97,6 +97,7 @@ fn begin_built_in(
     if let Some(from) = &init_from {
         text = from.in_its_order(&text, file)?.into();
     }
+    text = model::with_given_motions(&config, &text, &any.motion)?.into();
     let environment = model::environment(launcher.tasks, &config, &text, file)?;
     if let Some(file) = file {
         model::examine(launcher.tasks, &config, &text, file)?;
@@ -162,6 +163,7 @@ fn branch_off(
         if let Some(file) = &any.model {
             model::check_same(&config, &state.model_xml, file, &any.model_file)?;
         }
+        any.motion.check_same(&state.model_xml)?;
         let environment = model::environment(launcher.tasks, &config, &state.model_xml, None)?;
         let (size, wanted) = (environment.observation_size(), state.shape().observation);
         if size != wanted || environment.privileged_size() != state.shape().privileged {

@@ -6,9 +6,13 @@ use std::{
 };
 
 use clap::Args;
-use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
+use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig, EnvTask};
 use treadmill_humanoid::{
-    Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry, card::Proposal, mjcf, read_model_file,
+    Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry,
+    card::Proposal,
+    mjcf,
+    motion::{motions_of, with_motions},
+    read_model_file,
 };
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::{NetworkShape, Networks, PolicyMirror};
@@ -17,7 +21,10 @@ use treadmill_runtime::{
     words::{nearest_path, quoted},
 };
 
-use crate::{launch::exit_code::Usage, shared::model_file::ModelFileArgs};
+use crate::{
+    launch::exit_code::Usage,
+    shared::{model_file::ModelFileArgs, motion_file::MotionArgs},
+};
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
@@ -28,7 +35,11 @@ pub struct ModelArgs {
     /// Flags about that file.
     #[command(flatten)]
     pub file: ModelFileArgs,
-    /// Set a key of [env], [velocity], [rewards], [ground] or [randomisation], as in env.substeps=5; may be repeated.
+    /// Motions to imitate, in place of those of the policy.
+    #[command(flatten)]
+    pub motion: MotionArgs,
+    /// Set a key of [env], [velocity], [rewards], [motion], [ground] or [randomisation], as in env.substeps=5; may be
+    /// repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
@@ -39,13 +50,13 @@ impl ModelArgs {
         let mut source = ConfigSource::default();
         source.text(&base.to_toml(), "the run's configuration")?;
         for pair in &self.set {
-            if !["env.", "velocity.", "rewards.", "ground.", "randomisation."]
+            if !["env.", "velocity.", "rewards.", "motion.", "ground.", "randomisation."]
                 .iter()
                 .any(|section| pair.trim_start().starts_with(section))
             {
                 let why = format!(
-                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards], [ground] and \
-                     [randomisation]"
+                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards], [motion], \
+                     [ground] and [randomisation]"
                 );
                 return Err(Usage(why).into());
             }
@@ -56,8 +67,8 @@ impl ModelArgs {
 }
 
 /// Returns the text of a model file, or by default of the built-in humanoid, with the card that `env.robot` names. For the
-/// velocity task a model without a card gets that of the model `like`, if there is one, or else the one that [`Proposal`]
-/// finds.
+/// velocity and the motion task a model without a card gets that of the model `like`, if there is one, or else the one that
+/// [`Proposal`] finds; for the motion task a model without motions gets those of `like`.
 pub fn completed(
     config: &Config,
     file: Option<&Path>,
@@ -65,9 +76,30 @@ pub fn completed(
     like: &str,
 ) -> Result<Cow<'static, str>, Usage> {
     let text = text(file, files)?;
-    let is_velocity = matches!(config.env.chosen_task(), ChosenTask::Velocity);
+    let completed = with_servos(config, text, file, like)?;
+    // A motion belongs to the policy that imitates it, as the card does.
+    let motions = motions_of(like).unwrap_or_default();
+    if config.env.chosen_task() != ChosenTask::Motion || motions.is_empty() {
+        return Ok(completed);
+    }
+    match motions_of(&completed) {
+        Ok(own) if own.is_empty() => {
+            Ok(Cow::Owned(with_motions(&completed, &motions).map_err(|why| in_file(file, &why))?))
+        }
+        _ => Ok(completed),
+    }
+}
+
+/// Returns a model text with the card that it needs.
+fn with_servos<'a>(
+    config: &Config,
+    text: Cow<'a, str>,
+    file: Option<&Path>,
+    like: &str,
+) -> Result<Cow<'a, str>, Usage> {
+    let needs_card = matches!(config.env.chosen_task(), ChosenTask::Velocity | ChosenTask::Motion);
     match (config.env.robot.as_str(), file) {
-        ("", _) if is_velocity && mjcf::card_of(&text).is_none() => {
+        ("", _) if needs_card && mjcf::card_of(&text).is_none() => {
             let card = mjcf::card_of(like).map_or_else(|| found_card(&text, file), Ok)?;
             let whole = mjcf::with_card(&text, &card).map_err(|why| in_file(file, &why))?;
             Ok(Cow::Owned(whole))
@@ -100,6 +132,20 @@ fn found_card(text: &str, file: Option<&Path>) -> Result<String, Usage> {
         missing.join("; "),
         quoted(&shown)
     )))
+}
+
+/// Returns a model text with the motions of flags, which the motion task needs and no other one takes.
+pub fn with_given_motions(config: &Config, text: &str, given: &MotionArgs) -> Result<String, Usage> {
+    let is_motion = config.env.chosen_task() == ChosenTask::Motion;
+    if !is_motion && !given.motion.is_empty() {
+        let task = config.task_name();
+        return Err(Usage(format!("--motion has no effect on the task `{task}`; add --task motion")));
+    }
+    let whole = given.add_to(text)?;
+    if is_motion && motions_of(&whole).is_ok_and(|motions| motions.is_empty()) {
+        return Err(Usage("the motion task needs a motion; give one: --motion FILE (docs/guide/motion.md)".to_owned()));
+    }
+    Ok(whole)
 }
 
 /// Refuses flags about a model file where none is given.
@@ -140,7 +186,7 @@ pub fn environment(
     if config.is_external() {
         return Err(Usage(
             "config key `env.task` is \"external\", which this program does not simulate; allowed here: \"humanoid-v5\", \
-             \"humanoid-v4\" or \"velocity\""
+             \"humanoid-v4\", \"velocity\" or \"motion\""
                 .to_string(),
         ));
     }
@@ -157,7 +203,12 @@ pub fn environment(
 /// # Errors
 /// All faults with which a training would learn nothing.
 pub fn examine(tasks: &TaskRegistry, config: &Config, text: &str, file: &Path) -> Result<(), Usage> {
-    let found = HomePose::of(&config.environment(), text, tasks).map_err(|why| in_file(Some(file), &why))?;
+    let mut environment = config.environment();
+    if config.env.chosen_task() == ChosenTask::Motion {
+        // Its episodes begin elsewhere, and what it needs of the default pose is what a walker needs.
+        environment.env.task = EnvTask::Velocity;
+    }
+    let found = HomePose::of(&environment, text, tasks).map_err(|why| in_file(Some(file), &why))?;
     let warn = |list: &[String]| list.iter().for_each(|what| tracing::warn!("{}: {what}", file.display()));
     warn(&found.warnings);
     if matches!(config.env.chosen_task(), ChosenTask::Own(_)) {
@@ -221,7 +272,7 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
 
 /// Returns whether the task is none of Gymnasium's.
 pub fn has_other_task(env: &EnvConfig) -> bool {
-    matches!(env.chosen_task(), ChosenTask::Velocity | ChosenTask::Own(_))
+    matches!(env.chosen_task(), ChosenTask::Velocity | ChosenTask::Motion | ChosenTask::Own(_))
 }
 
 /// Returns the error of a model that was read from `file` if given.

@@ -74,6 +74,7 @@ pub fn go_on(
     if let Some(file) = &any.model {
         model::check_same(&config, &state.model_xml, file, &any.model_file)?;
     }
+    any.motion.check_same(&state.model_xml)?;
     let (reached, saved) = (state.counters.env_steps, config.run.steps);
     let goal = match any.steps {
         // A service has the same command line at each start.

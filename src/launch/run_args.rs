@@ -11,13 +11,15 @@ use treadmill_runtime::{numbers::parse_count, words::nearest};
 
 use crate::{
     launch::exit_code::Usage,
-    shared::{existing_file::existing_file, model_file::ModelFileArgs},
+    shared::{existing_file::existing_file, model_file::ModelFileArgs, motion_file::MotionArgs},
 };
 
 /// Preset of the velocity task for any robot.
 pub const OF_ANY_ROBOT: &str = "velocity";
 /// Preset of tasks that are not built in.
 const OF_OWN_TASK: &str = "own-task";
+/// Preset of the motion task.
+const OF_MOTIONS: &str = "motion";
 
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
@@ -33,7 +35,7 @@ pub struct NewRunArgs {
     /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Task: humanoid-v5, humanoid-v4, velocity, `external` for the task that the first actor registers, or the name of
+    /// Task: humanoid-v5, humanoid-v4, velocity, motion, `external` for the task that the first actor registers, or the name of
     /// such a task, with a slash, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
     #[arg(long, value_name = "NAME")]
     pub task: Option<String>,
@@ -63,6 +65,7 @@ impl NewRunArgs {
         self.preset.as_deref().unwrap_or_else(|| match self.task_name().as_deref() {
             None => "walk",
             Some(task) if task == EnvTask::Velocity.name() => OF_ANY_ROBOT,
+            Some(task) if task == EnvTask::Motion.name() => OF_MOTIONS,
             Some(task) if task != EnvTask::External.name() && EnvTask::NAMES.contains(&task) => "walk",
             Some(_) => OF_OWN_TASK,
         })
@@ -158,6 +161,9 @@ pub struct AnyRunArgs {
     /// Flags about that file.
     #[command(flatten)]
     pub model_file: ModelFileArgs,
+    /// Motions to imitate.
+    #[command(flatten)]
+    pub motion: MotionArgs,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "saved")]
     pub checkpoint: Option<CheckpointChoice>,

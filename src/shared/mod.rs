@@ -6,6 +6,7 @@
 //! - [`network_args`]: flags of the network.
 //! - [`learner_address`]: flags that locate a learner, and a session with it.
 //! - [`model_file`]: flags about the file of a robot.
+//! - [`motion_file`]: flags about motions, and their files.
 //! - `existing_file`: reads a flag that names a file.
 //! - `foreign_text`: makes text from another machine safe to print, and shortens names.
 
@@ -13,6 +14,7 @@ pub(crate) mod existing_file;
 pub(crate) mod foreign_text;
 pub mod learner_address;
 pub mod model_file;
+pub mod motion_file;
 pub mod network_args;
 pub mod saved_policy;
 pub mod saved_run;

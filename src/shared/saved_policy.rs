@@ -144,7 +144,7 @@ fn exported(state: &TrainingState, trained: TrainedPolicy) -> anyhow::Result<Exp
     };
     let kind = match config.env.chosen_task() {
         ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => config.env.observation.name(),
-        ChosenTask::Velocity | ChosenTask::External => config.env.task.name(),
+        ChosenTask::Velocity | ChosenTask::Motion | ChosenTask::External => config.env.task.name(),
         ChosenTask::Own(name) => name,
     };
     let (observation, mean, variance) =

@@ -12,13 +12,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub use self::saved::EpisodeState;
 pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
 use crate::clearance;
-use crate::config::EnvironmentConfig;
+use crate::config::{ChosenTask, EnvironmentConfig};
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
 use crate::model::Model;
 use crate::physics::Physics;
 use crate::randomisation::{Randomiser, SensorNoise};
-use crate::task::{HumanoidTask, ObservationTerm, Reached, Step, StepOutcome, Task, TaskRegistry};
+use crate::task::{HumanoidTask, ObservationTerm, Reached, Start, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
 
 /// Reinforcement-learning environment of one humanoid.
@@ -86,15 +86,20 @@ impl Environment {
         let nominal_clearance_m = clearance::of_robot_m(&physics, ground_m).filter(|_| task.starts_on_ground());
         task.begin(0, &physics);
         task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
+        let mut config = config.clone();
+        if config.env.chosen_task() == ChosenTask::Motion && !config.has_curricula {
+            // An episode outside of training ends with its motion.
+            config.env.max_episode_steps = 0;
+        }
         Ok(Self {
-            config: config.clone(),
             seed: None,
-            randomiser: Randomiser::new(config, physics.model()),
+            randomiser: Randomiser::new(&config, physics.model()),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; action_size],
             action_ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
             last_info: gymnasium_info(&*task),
+            config,
             task,
             nominal_position,
             nominal_velocity,
@@ -168,15 +173,18 @@ impl Environment {
         for (start, nominal) in self.start_velocity.iter_mut().zip(&self.nominal_velocity) {
             *start = nominal + uniform_noise(&mut random, scale);
         }
-        self.task.start(seed, &self.physics, &mut self.start_position);
+        let start = Start { position: &mut self.start_position, velocity: &mut self.start_velocity };
+        self.task.start(seed, &self.physics, start);
         self.seed = Some(seed);
         self.randomiser.begin_episode(seed, &mut self.physics);
         // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
-        if let Some(nominal_m) = self.nominal_clearance_m {
+        let stays_above = self.task.stays_above_ground().then_some(0.0);
+        if let Some(nominal_m) = self.nominal_clearance_m.or(stays_above) {
             let ground_m = |x_m, y_m| self.physics.ground_height_m(x_m, y_m);
             let clearance_m = clearance::of_robot_m(&self.physics, ground_m).unwrap_or(nominal_m);
-            self.start_position[2] += nominal_m - clearance_m;
+            let lift_m = nominal_m - clearance_m;
+            self.start_position[2] += if stays_above.is_some() { lift_m.max(0.0) } else { lift_m };
             self.physics.set_state(&self.start_position, &self.start_velocity);
         }
         self.episode_steps = 0;

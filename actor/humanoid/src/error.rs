@@ -85,6 +85,9 @@ pub enum ModelError {
     /// A task of the program itself does not fit the robot or its settings.
     #[error("task: {0}")]
     Task(String),
+    /// A motion in the model text is damaged, or does not fit the robot.
+    #[error("motion: {0}")]
+    Motion(String),
     /// A robot card is wrong, or does not fit its model.
     #[error("robot card: {0}")]
     Card(String),

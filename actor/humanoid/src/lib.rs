@@ -17,6 +17,7 @@
 //! - [`mjcf`]: MJCF text → model.
 //! - [`home`]: examination of the pose in which episodes start.
 //! - [`card`]: robot cards, which complete a model by servos and a default pose.
+//! - [`motion`]: motions to imitate, from files.
 //! - `terrain`: generated ground.
 //! - `articulation`: a model as a tree of bodies: paths, poses, mass matrix.
 //! - `dynamics`: motion of articulated bodies with their constraints.
@@ -37,6 +38,7 @@ pub mod home;
 pub mod info;
 pub mod mjcf;
 pub mod model;
+pub mod motion;
 pub mod observation;
 pub mod physics;
 pub mod task;

@@ -19,7 +19,7 @@ pub use sections::{
 pub use source::{ConfigSource, given_value};
 pub use treadmill_settings::{
     ChosenTask, ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind, KeyDoc,
-    RandomisationConfig, RewardsConfig, Section, SectionDoc, VelocityConfig,
+    MotionConfig, RandomisationConfig, RewardsConfig, Section, SectionDoc, VelocityConfig,
 };
 use treadmill_settings::{refuse, show};
 
@@ -35,6 +35,9 @@ pub struct Config {
     pub velocity: VelocityConfig,
     /// Rewards of the velocity task.
     pub rewards: RewardsConfig,
+    /// Motion task. Omitted from TOML if unset, so that actors of versions without it can read the rest.
+    #[serde(skip_serializing_if = "MotionConfig::is_default")]
+    pub motion: MotionConfig,
     /// Ground of the velocity task.
     pub ground: GroundConfig,
     /// External task. Omitted from TOML if unset, so that actors of versions without external tasks can read it.
@@ -59,12 +62,13 @@ pub struct Config {
 impl Config {
     /// Returns every section with its keys, in the order of the documentation.
     pub fn sections() -> Vec<SectionDoc> {
-        let [env, velocity, rewards, ground, randomisation] = EnvironmentConfig::sections();
+        let [env, velocity, rewards, motion, ground, randomisation] = EnvironmentConfig::sections();
         vec![
             RunConfig::describe(),
             env,
             velocity,
             rewards,
+            motion,
             ground,
             TaskConfig::describe(),
             randomisation,
@@ -146,6 +150,7 @@ impl Config {
             env: self.env.clone(),
             velocity: self.velocity.clone(),
             rewards: self.rewards.clone(),
+            motion: self.motion.clone(),
             ground: self.ground.clone(),
             randomisation: self.randomisation.clone(),
         }

@@ -22,6 +22,35 @@ macro_rules! velocity {
     };
 }
 
+/// Preset of motions for a robot with a built-in card, or with one of its own for "".
+macro_rules! motion {
+    ($card:literal) => {
+        concat!(
+            "[env]\ntask = \"motion\"\nrobot = \"",
+            $card,
+            "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.0\nmax_episode_steps = 500\n\
+             [policy]\ninit_log_std = -1.8\n[ppo]\ngamma = 0.98\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n\
+             [randomisation]\nfloor_friction_scale = [0.5, 1.3]\nmass_scale = [0.9, 1.1]\nmotor_scale = [0.9, 1.1]\n\
+             sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
+             push_interval_s = [1.0, 3.0]\npush_mps = [0.0, 0.5]\n"
+        )
+    };
+}
+
+/// Links of a G1 that mjlab 1.6.0 compares in its tracking task.
+macro_rules! links_of_g1 {
+    () => {
+        "\
+[motion]
+anchor = \"torso_link\"
+bodies = [\"pelvis\", \"left_hip_roll_link\", \"left_knee_link\", \"left_ankle_roll_link\", \"right_hip_roll_link\", \
+\"right_knee_link\", \"right_ankle_roll_link\", \"torso_link\", \"left_shoulder_roll_link\", \"left_elbow_link\", \
+\"left_wrist_yaw_link\", \"right_shoulder_roll_link\", \"right_elbow_link\", \"right_wrist_yaw_link\"]
+end_effectors = [\"left_ankle_roll_link\", \"right_ankle_roll_link\", \"left_wrist_yaw_link\", \"right_wrist_yaw_link\"]
+"
+    };
+}
+
 /// Names and TOML text of the presets.
 pub const PRESETS: &[(&str, &str)] = &[
     ("walk", WALK),
@@ -51,6 +80,9 @@ pub const PRESETS: &[(&str, &str)] = &[
              [velocity]\nheight_scan = true\nswing_height_m = 0.1\n"
         ),
     ),
+    // Robots that imitate motions; each needs its model file and a motion.
+    ("motion", motion!("")),
+    ("g1-motion", concat!(motion!("g1-29"), links_of_g1!())),
     ("h1", velocity!("h1")),
     ("t1", velocity!("t1")),
     // The defaults with a randomised body and floor, for policies that must walk in another simulator.

@@ -1,6 +1,6 @@
 //! Exports a policy as an ONNX model, for other programs.
 
-use treadmill_proto::onnx::{Layer, OnnxPolicy, Ports};
+use treadmill_proto::onnx::{Layer, OnnxMotion, OnnxPolicy, Ports};
 
 use crate::exported::{ActionFacts, ExportedPolicy};
 
@@ -11,6 +11,8 @@ pub struct ForController {
     pub action_limit: Option<f32>,
     /// Input and output of the model.
     pub ports: Ports,
+    /// Motion that the policy imitates.
+    pub motion: Option<OnnxMotion>,
     /// Metadata entries beside `treadmill.*`.
     pub metadata: Vec<(String, String)>,
 }
@@ -47,6 +49,7 @@ pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> V
         low: &low,
         high: &high,
         ports: controller.map_or(Ports::ANY_BATCH, |of| of.ports),
+        motion: controller.and_then(|of| of.motion.as_ref()),
         doc,
         metadata: metadata.chain(controller.iter().flat_map(|of| of.metadata.clone())).collect(),
     }

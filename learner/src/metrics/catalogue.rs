@@ -275,6 +275,16 @@ pub const METRICS: &[MetricRow] = metrics! {
     Important "eval/velocity_error", "m/s", "" => Sometimes(|r| r.evaluation?.0.velocity_error_mps);
     /// The same for the yaw rate.
     Important "eval/yaw_rate_error", "rad/s", "" => Sometimes(|r| r.evaluation?.0.yaw_rate_error_radps);
+    /// Mean distance of the compared links from those of the motion, for the motion task; the anchors lie above each other.
+    Important "eval/body_error", "m", "" => Sometimes(|r| r.evaluation?.0.body_error_m);
+    /// Mean angle between them.
+    "eval/body_angle_error", "rad", "" => Sometimes(|r| r.evaluation?.0.body_error_rad);
+    /// Mean distance between the anchors.
+    "eval/anchor_error", "m", "" => Sometimes(|r| r.evaluation?.0.anchor_error_m);
+    /// Mean of the hinges' root mean square error.
+    "eval/hinge_error", "rad", "" => Sometimes(|r| r.evaluation?.0.hinge_error_rad);
+    /// Mean share of a motion that was done.
+    Important "eval/done_share", "share", "" => Sometimes(|r| r.evaluation?.0.done_share);
 
     /// Mean of weight times this term of the reward over the batch.
     "rewards/{term}", "–", "" => Term;

@@ -117,6 +117,7 @@ impl CurveFacts {
             ChosenTask::HumanoidV5 => ("humanoid-v5", false),
             ChosenTask::HumanoidV4 => ("humanoid-v4", false),
             ChosenTask::Velocity => ("velocity", true),
+            ChosenTask::Motion => ("motion", false),
             ChosenTask::External => (&*config.task.name, false),
             ChosenTask::Own(own) => (own, false),
         };

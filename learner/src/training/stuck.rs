@@ -39,6 +39,9 @@ impl Stuck {
         let standing_mps = config.velocity.mean_speed_mps();
         let has_commands = match config.env.chosen_task() {
             ChosenTask::Velocity => true,
+            // How far a motion goes says nothing; falls do.
+            ChosenTask::Motion if means.fall_fraction > FALLS => true,
+            ChosenTask::Motion => return None,
             ChosenTask::HumanoidV4 | ChosenTask::HumanoidV5 => false,
             // What is good in other tasks is not known.
             ChosenTask::Own(_) | ChosenTask::External => return None,

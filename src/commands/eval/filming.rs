@@ -1,6 +1,7 @@
 //! Pictures of an evaluation, for `eval --film` and `eval --png`.
 
 use std::{
+    any::Any,
     fs,
     path::{Path, PathBuf},
 };
@@ -9,7 +10,10 @@ use anyhow::Context;
 use clap::{ArgGroup, Args};
 use nalgebra::Point3;
 use treadmill_actor::{evaluation::EvaluationStep, poses::heading_velocity};
-use treadmill_humanoid::{Physics, task::velocity::BaseMotion};
+use treadmill_humanoid::{
+    Physics,
+    task::{motion::MotionTask, velocity::BaseMotion},
+};
 use treadmill_render::{Camera, Look, Picture, Scene, film, look::Colour};
 use treadmill_runtime::atomic_file;
 
@@ -71,6 +75,10 @@ const ARROW_S: f64 = 0.7;
 const ARROWS_ABOVE: f64 = 0.8;
 const ARROWS_APART_M: f64 = 0.06;
 
+/// Colour of the motion that a robot imitates, and its distance to the left, away from the camera, in heights of the robot.
+const GHOST: Colour = [0.62, 0.70, 0.78];
+const GHOST_ASIDE: f64 = 0.75;
+
 /// Recorder of the episodes.
 pub struct Filming {
     args: FilmArgs,
@@ -86,10 +94,26 @@ pub struct Filming {
     followed_m: Option<[f64; 3]>,
     /// Mean velocity in the heading frame, forward and left (m/s), and yaw rate (rad/s).
     motion: Option<[f64; 3]>,
+    /// Robot that is where the motion is.
+    ghost: Option<Physics>,
     failed: Option<anyhow::Error>,
 }
 
+/// What a picture shows.
+struct Shown<'a> {
+    physics: &'a Physics,
+    time_s: f64,
+    command: Option<[f64; 3]>,
+    /// Position vector of the motion that the robot imitates.
+    wanted: Option<&'a [f64]>,
+}
+
 impl FilmArgs {
+    /// Returns the flags of a film with the usual size and rate.
+    pub fn of_file(path: &Path) -> Self {
+        Self { film: Some(path.to_owned()), png: None, size: (640, 480), fps: 25, from_s: 0.0, seconds: None }
+    }
+
     /// Opens the outputs of a robot, whose look is needed only then; returns `None` if no pictures are wanted.
     pub fn begin(&self, control_step_s: f64, look: impl FnOnce() -> Look) -> anyhow::Result<Option<Filming>> {
         if self.film.is_none() && self.png.is_none() {
@@ -109,6 +133,7 @@ impl FilmArgs {
             height_m: None,
             followed_m: None,
             motion: None,
+            ghost: None,
             failed: None,
         }))
     }
@@ -131,23 +156,38 @@ impl Filming {
         if step.step == 1 {
             (self.taken_of_episode, self.followed_m, self.motion) = (0, None, None);
         }
-        let now = heading_velocity(step.environment.physics());
+        let task: &dyn Any = step.environment.task();
+        self.show(&Shown {
+            physics: step.environment.physics(),
+            time_s: f64::from(step.step) * self.control_step_s,
+            command: step.start.command,
+            wanted: task.downcast_ref().map(MotionTask::wanted_position),
+        });
+    }
+
+    /// Records a pose at a time (s).
+    pub fn record_pose(&mut self, physics: &Physics, time_s: f64) {
+        self.show(&Shown { physics, time_s, command: None, wanted: None });
+    }
+
+    fn show(&mut self, shown: &Shown<'_>) {
+        let now = heading_velocity(shown.physics);
         self.motion = Some(nearer(self.motion, now, [self.control_step_s; 3]));
         if self.failed.is_none()
-            && let Err(why) = self.take_picture(step)
+            && let Err(why) = self.take_picture(shown)
         {
             self.failed = Some(why);
         }
     }
 
-    fn take_picture(&mut self, step: &EvaluationStep) -> anyhow::Result<()> {
-        let time_s = f64::from(step.step) * self.control_step_s;
+    fn take_picture(&mut self, shown: &Shown<'_>) -> anyhow::Result<()> {
+        let time_s = shown.time_s;
         // Takes the step nearest to the time at which a picture is due; several times if steps are longer than pictures.
         let due = self.due_pictures(time_s);
         if due == 0 {
             return Ok(());
         }
-        let picture = self.picture(step, time_s, due);
+        let picture = self.picture(shown, due);
         for _ in 0..due {
             if let Some(film) = &mut self.film {
                 film.add(&picture)?;
@@ -164,8 +204,8 @@ impl Filming {
     }
 
     /// Draws the robot in the middle of the picture.
-    fn picture(&mut self, step: &EvaluationStep, time_s: f64, due: usize) -> Picture {
-        let physics = step.environment.physics();
+    fn picture(&mut self, shown: &Shown<'_>, due: usize) -> Picture {
+        let Shown { physics, time_s, command, wanted } = *shown;
         let mut scene = Scene::with(&self.look, physics);
         let base_m = [0, 1, 2].map(|axis| physics.position()[axis]);
         let [low, high] = scene.robot_box_m().unwrap_or([base_m.into(); 2]);
@@ -178,8 +218,11 @@ impl Filming {
         let now_m = [base_m[0], base_m[1], level_m];
         let followed_m = nearer(self.followed_m, now_m, [f64::INFINITY, passed_s, passed_s]);
         self.followed_m = Some(followed_m);
-        if let Some(command) = step.start.command {
+        if let Some(command) = command {
             add_velocities(&mut scene, physics, command);
+        }
+        if let Some(wanted) = wanted {
+            self.add_ghost(&mut scene, physics, wanted);
         }
         let camera = Camera::framing(followed_m, BESIDE, height_m, FILLED);
         let mut picture = Picture::of(&scene, &camera, self.args.size);
@@ -189,8 +232,20 @@ impl Filming {
             (Point3::new(x_m, y_m, scene.ground_m(x_m, y_m)), format!("{metre} m"))
         });
         picture.write_scale(&camera, numbers, 0.5);
-        picture.write_line(&line(time_s, step.start.command, self.motion.unwrap_or_default()));
+        picture.write_line(&line(time_s, command, self.motion.unwrap_or_default()));
         picture
+    }
+
+    /// Draws the motion beside the robot.
+    fn add_ghost(&mut self, scene: &mut Scene, physics: &Physics, wanted: &[f64]) {
+        if self.ghost.is_none() {
+            self.ghost = Physics::new(physics.model().clone(), *physics.settings()).ok();
+        }
+        let Some(ghost) = &mut self.ghost else { return };
+        let mut beside = wanted.to_vec();
+        beside[1] += GHOST_ASIDE * self.height_m.unwrap_or(1.0);
+        ghost.set_state(&beside, &vec![0.0; physics.model().velocity_size()]);
+        scene.add_ghost(&self.look, ghost, GHOST);
     }
 
     /// Returns how many pictures are due after the step at this time of the episode.

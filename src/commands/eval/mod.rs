@@ -14,9 +14,11 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 use treadmill_actor::{
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
-    evaluation::{EpisodeResult, Evaluation, EvaluationStep, evaluate_commanded, tracking::Tracking},
+    evaluation::{
+        EpisodeResult, Evaluation, EvaluationStep, evaluate_commanded, imitation::Imitation, tracking::Tracking,
+    },
 };
-use treadmill_config::{Config, RandomisationConfig};
+use treadmill_config::{ChosenTask, Config, RandomisationConfig};
 use treadmill_humanoid::{Environment, TaskRegistry, mjcf::visual_meshes};
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::exported::ExportedPolicy;
@@ -25,7 +27,7 @@ use treadmill_runtime::words::shown;
 
 mod command_file;
 mod film;
-mod filming;
+pub(crate) mod filming;
 mod trace;
 
 use self::{
@@ -106,6 +108,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let commands = args.commands.as_deref().map(CommandFile::read).transpose()?;
     let Prepared { mut environment, mut agent, origin } = prepare(&args, tasks)?;
     let has_commands = environment.task().command().is_some();
+    let columns = Columns::of(&environment);
     if let Some(path) = args.commands.as_ref().filter(|_| !has_commands) {
         let why = "this task has no commands; leave --commands out, or play a policy of the velocity task";
         return Err(Usage(format!("--commands {}: {why}", path.display())).into());
@@ -143,7 +146,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             ));
         }
         if prints_rows && let Some(played) = &step.ended {
-            is_read = (step.episode > 1 || say_to_reader(&headings(has_commands)))
+            is_read = (step.episode > 1 || say_to_reader(&headings(columns)))
                 && say_to_reader(&row(step.episode, played));
         }
         // Files are completed although the table has no reader.
@@ -159,7 +162,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         say(&as_json(args.agent, origin, &evaluation, control_step_s));
     } else {
         if prints_steps {
-            say(&headings(has_commands));
+            say(&headings(columns));
             (1..).zip(&evaluation.episodes).for_each(|(episode, played)| say(&row(episode, played)));
         }
         print_summary(&args, origin.as_ref(), &evaluation, control_step_s);
@@ -200,8 +203,9 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
         }
         let config = configuration(args, Config::default())?;
         let file = args.model.model.as_deref();
-        let environment =
-            model::environment(tasks, &config, &model::completed(&config, file, &args.model.file, "")?, file)?;
+        let text = model::completed(&config, file, &args.model.file, "")?;
+        let text = model::with_given_motions(&config, &text, &args.model.motion)?;
+        let environment = model::environment(tasks, &config, &text, file)?;
         let action_size = environment.action_size();
         return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
@@ -210,9 +214,14 @@ fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
     let config = configuration(args, config)?;
     model::check_flags(args.model.model.as_deref(), &args.model.file)?;
     let environment = match args.model.model.as_deref() {
-        None => saved_policy::environment(tasks, run, &policy, &config)?,
+        None if args.model.motion.motion.is_empty() => saved_policy::environment(tasks, run, &policy, &config)?,
+        None => {
+            let text = model::with_given_motions(&config, &policy.model_xml, &args.model.motion)?;
+            model::environment(tasks, &config, &text, None)?
+        }
         Some(file) => {
             let text = model::for_policy(&config, file, &args.model.file, &policy.model_xml)?;
+            let text = model::with_given_motions(&config, &text, &args.model.motion)?;
             let environment = model::environment(tasks, &config, &text, Some(file))?;
             check_fits(&policy, &environment, file)?;
             environment
@@ -272,8 +281,30 @@ fn warn_of_unplayed(path: &Path, file: &CommandFile, episode_s: f64) {
     }
 }
 
-fn headings(has_commands: bool) -> String {
-    let errors = if has_commands { "  error m/s  error rad/s" } else { "" };
+/// Figures of the task beside return and way.
+#[derive(Clone, Copy)]
+enum Columns {
+    None,
+    Tracking,
+    Imitation,
+}
+
+impl Columns {
+    fn of(environment: &Environment) -> Self {
+        match environment.config().env.chosen_task() {
+            ChosenTask::Motion => Self::Imitation,
+            _ if environment.task().command().is_some() => Self::Tracking,
+            _ => Self::None,
+        }
+    }
+}
+
+fn headings(columns: Columns) -> String {
+    let errors = match columns {
+        Columns::None => "",
+        Columns::Tracking => "  error m/s  error rad/s",
+        Columns::Imitation => "  done %  bodies cm  bodies deg  hinges rad",
+    };
     format!("episode      return  length  distance m  velocity m/s{errors}  end")
 }
 
@@ -281,12 +312,23 @@ fn row(episode: u32, played: &EpisodeResult) -> String {
     let end = match (played.fault, played.fell) {
         (true, _) => "non-finite",
         (_, true) => "fell",
+        _ if played.imitation.is_some() => "finished",
         _ => "time limit",
     };
-    let EpisodeResult { return_sum, length, distance_m, velocity_mps, tracking, .. } = played;
+    let EpisodeResult { return_sum, length, distance_m, velocity_mps, tracking, imitation, .. } = played;
     let errors = tracking.map(|tracking| {
         let (velocity, yaw_rate) = (number(tracking.velocity_error_mps()), number(tracking.yaw_rate_error_radps()));
         format!(" {velocity:>10} {yaw_rate:>12}")
+    });
+    let errors = errors.or_else(|| {
+        let imitation = imitation.as_ref()?;
+        Some(format!(
+            " {:>7.0} {:>10.1} {:>11.1} {:>11.3}",
+            100.0 * imitation.done_share(),
+            100.0 * imitation.body_error_m(),
+            imitation.body_error_rad().to_degrees(),
+            imitation.hinge_error_rad()
+        ))
     });
     let errors = errors.unwrap_or_default();
     format!("{episode:>7} {return_sum:>11.1} {length:>7} {distance_m:>11.2} {velocity_mps:>13.2}{errors}  {end}")
@@ -310,12 +352,27 @@ fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluati
     if let Some(tracking) = evaluation.tracking() {
         print_tracking(&tracking);
     }
+    if let Some(imitation) = evaluation.imitation() {
+        print_imitation(&imitation, episodes);
+    }
     if args.verbose {
         let joints = &evaluation.joints;
         say(&format!(
             "joints        limit overshoot {:.3} rad (99.9 % of steps; largest {:.3} rad)",
             joints.overshoot_p999_rad, joints.overshoot_max_rad
         ));
+    }
+}
+
+fn print_imitation(imitation: &Imitation, episodes: usize) {
+    let (finished, done) = (imitation.finished(), 100.0 * imitation.done_share());
+    say(&format!("finished      {finished} of {episodes}; {done:.1} % of the motion in the mean"));
+    say(&format!("anchor        {:.1} cm, {:.1}°", 100.0 * imitation.anchor_error_m(), imitation.anchor_error_rad().to_degrees()));
+    let (bodies_cm, turned) = (100.0 * imitation.body_error_m(), imitation.body_error_rad().to_degrees());
+    say(&format!("bodies        {bodies_cm:.1} cm, {turned:.1}°, with the anchors above each other"));
+    say(&format!("hinges        {:.3} rad", imitation.hinge_error_rad()));
+    if let Some((error_m, from_s)) = imitation.worst_second() {
+        say(&format!("worst second  bodies {:.1} cm, from {from_s:.1} s of the motion on", 100.0 * error_m));
     }
 }
 
@@ -364,6 +421,17 @@ fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, co
         "limit_overshoot_p999_rad": joints.overshoot_p999_rad,
         "limit_overshoot_max_rad": joints.overshoot_max_rad,
     });
+    if let Some(imitation) = evaluation.imitation() {
+        fields["finished"] = json!(imitation.finished());
+        fields["done_share"] = json!(imitation.done_share());
+        fields["anchor_error_m"] = json!(imitation.anchor_error_m());
+        fields["anchor_error_rad"] = json!(imitation.anchor_error_rad());
+        fields["body_error_m"] = json!(imitation.body_error_m());
+        fields["body_error_rad"] = json!(imitation.body_error_rad());
+        fields["hinge_error_rad"] = json!(imitation.hinge_error_rad());
+        let worst = imitation.worst_second();
+        fields["worst_second"] = json!(worst.map(|(error_m, from_s)| json!({"body_error_m": error_m, "from_s": from_s})));
+    }
     if let Some(tracking) = evaluation.tracking() {
         fields["velocity_error_mps"] = json!(tracking.velocity_error_mps());
         fields["yaw_rate_error_radps"] = json!(tracking.yaw_rate_error_radps());

@@ -1,17 +1,22 @@
-//! Contract of a policy of the velocity task: what a robot's controller must know to play it.
+//! Contract of a policy of the velocity or the motion task: what a robot's controller must know to play it.
 
 use anyhow::Context;
 use serde_json::{Value, json};
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig,
+    Environment, EnvironmentConfig, ObservationTerm,
     config::ChosenTask,
     model::{HingeControl, Robot},
-    task::velocity::{
-        ACTION_MAX, Calm, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
+    task::{
+        motion::{MOTION_OBSERVATION, MotionTerm},
+        velocity::{
+            ACTION_MAX, Calm, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
+        },
     },
 };
 use treadmill_policy::onnx::ForController;
 use treadmill_proto::onnx::Ports;
+
+use super::imitated::Imitated;
 
 /// Version of the contract; raised if an old reader would misunderstand a new one.
 const FORMAT: u32 = 1;
@@ -32,7 +37,12 @@ pub(super) struct Joint {
 
 /// Term of one observation.
 pub(super) struct Term {
-    pub row: &'static TermRow,
+    pub name: &'static str,
+    pub mjlab_name: &'static str,
+    unit: &'static str,
+    frame: &'static str,
+    /// Its parameters in `deploy.yaml`, for the velocity task.
+    pub deploy_params: String,
     pub size: usize,
 }
 
@@ -54,17 +64,19 @@ pub(super) struct Contract {
     /// Default height and orientation of the base.
     height_m: f64,
     orientation_wxyz: Vec<f64>,
+    /// What the policy imitates, for the motion task.
+    imitated: Option<Imitated>,
 }
 
 impl Contract {
-    /// Returns the contract of policies for an environment; `None` if its task is not the velocity task.
+    /// Returns the contract of policies for an environment; `None` if its task is neither the velocity nor the motion task.
     pub fn new(environment: &Environment) -> anyhow::Result<Option<Self>> {
         let config = environment.config();
-        if config.env.chosen_task() != ChosenTask::Velocity {
+        if !matches!(config.env.chosen_task(), ChosenTask::Velocity | ChosenTask::Motion) {
             return Ok(None);
         }
         let model = environment.physics().model();
-        let robot: &Robot = model.robot.as_ref().context("the velocity task has no robot card")?;
+        let robot: &Robot = model.robot.as_ref().context("the task has no robot card")?;
         let joint = |(index, control): (usize, &HingeControl)| Joint {
             name: model.hinges[index].name.clone(),
             default_rad: robot.default_position[7 + index],
@@ -91,12 +103,23 @@ impl Contract {
             excluded: robot.excluded.iter().map(|pair| pair.map(|link| model.links[link].name.clone())).collect(),
             height_m: robot.default_position[2],
             orientation_wxyz: robot.default_position[3..7].to_vec(),
+            imitated: Imitated::of(environment),
         }))
     }
 
     /// Returns whether the policy knows another frame of the base than the file.
     pub fn turns_base(&self) -> bool {
         self.forward_wxyz[0] < 1.0
+    }
+
+    /// Returns the number of observations that the policy sees together.
+    pub fn history(&self) -> u32 {
+        if self.imitated.is_some() { 1 } else { self.config.velocity.history }
+    }
+
+    /// Returns whether the policy imitates a motion.
+    pub fn imitates(&self) -> bool {
+        self.imitated.is_some()
     }
 
     /// Returns the duration of a control step (s).
@@ -110,14 +133,14 @@ impl Contract {
             self.joints.iter().map(|joint| number(joint).to_string()).collect::<Vec<_>>().join(",")
         };
         let names = |names: Vec<&str>| names.join(",");
-        let is_single = self.config.velocity.history == 1;
+        let is_single = self.history() == 1;
         let metadata = [
             ("joint_names", names(self.joints.iter().map(|joint| &joint.name[..]).collect())),
             ("joint_stiffness", listed(|joint| joint.kp)),
             ("joint_damping", listed(|joint| joint.kd)),
             ("default_joint_pos", listed(|joint| joint.default_rad)),
             ("action_scale", listed(|joint| joint.action_scale_rad)),
-            ("observation_names", names(self.terms.iter().map(|term| term.row.mjlab_name).collect())),
+            ("observation_names", names(self.terms.iter().map(|term| term.mjlab_name).collect())),
             ("observation_terms_scale", names(vec!["1"; self.terms.len()])),
             ("observation_terms_clip", names(vec!["-inf;inf"; self.terms.len()])),
             // mjlab lists all frames of a term, then those of the next one, which is another layout than ours.
@@ -125,16 +148,20 @@ impl Contract {
                 "observation_terms_history_length",
                 names(vec![if is_single { "0" } else { "whole frames" }; self.terms.len()]),
             ),
-            ("command_names", "base_velocity".to_owned()),
-            ("history", self.config.velocity.history.to_string()),
+            ("command_names", if self.imitated.is_some() { "motion" } else { "base_velocity" }.to_owned()),
+            ("history", self.history().to_string()),
             ("control_step_s", self.control_step_s().to_string()),
             ("treadmill.contract", self.json().to_string()),
         ];
         if let Some(joint) = self.joints.iter().find(|joint| joint.name.contains(',')) {
             anyhow::bail!("the joint `{}` has a comma in its name, which separates joints; rename it", joint.name);
         }
-        let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).to_vec();
-        Ok(ForController { action_limit: Some(ACTION_MAX as f32), ports, metadata })
+        let of_motion = self.imitated.as_ref().map(Imitated::metadata).unwrap_or_default();
+        let metadata = metadata.into_iter().chain(of_motion).map(|(key, value)| (key.to_owned(), value)).collect();
+        // What mjlab's players of motions ask for.
+        let ports = if self.imitated.is_some() { Ports::UNITREE } else { ports };
+        let motion = self.imitated.as_ref().map(|imitated| imitated.tables.clone());
+        Ok(ForController { action_limit: Some(ACTION_MAX as f32), ports, motion, metadata })
     }
 
     /// Returns the whole contract.
@@ -146,11 +173,11 @@ impl Contract {
         let terms: Vec<Value> = self
             .terms
             .iter()
-            .map(|Term { row: TermRow { name, unit, frame, .. }, size }| {
+            .map(|Term { name, unit, frame, size, .. }| {
                 json!({"name": name, "size": size, "unit": unit, "frame": frame})
             })
             .collect();
-        for (key, value) in [
+        let shared = [
             ("format", json!(FORMAT)),
             ("control_step_s", json!(env.control_step_s)),
             ("substeps", json!(env.substeps)),
@@ -163,6 +190,15 @@ impl Contract {
             ("default_base_height_m", json!(self.height_m)),
             ("default_base_orientation_wxyz", json!(self.orientation_wxyz)),
             ("observation", json!(terms)),
+            ("push_interval_s", json!(randomisation.push_interval_s)),
+            ("push_mps", json!(randomisation.push_mps)),
+        ];
+        shared.into_iter().for_each(|(key, value)| contract[key] = value);
+        if let Some(imitated) = &self.imitated {
+            contract["motion"] = imitated.json(&self.config.motion);
+            return contract;
+        }
+        for (key, value) in [
             (
                 "history",
                 json!({
@@ -210,8 +246,6 @@ impl Contract {
                     "tilt_rad": velocity.fall_tilt_rad,
                 }),
             ),
-            ("push_interval_s", json!(randomisation.push_interval_s)),
-            ("push_mps", json!(randomisation.push_mps)),
         ] {
             contract[key] = value;
         }
@@ -235,13 +269,23 @@ fn lists(joints: &[Joint]) -> Value {
 /// Returns the terms of one observation of the policy, the newest of its history.
 fn terms(environment: &Environment) -> anyhow::Result<Vec<Term>> {
     let of_policy: Vec<_> = environment.terms().iter().filter(|term| !term.is_privileged).collect();
+    let unknown = |name: &str| format!("the policy observes `{name}`, which is no term of the task");
+    if environment.config().env.chosen_task() == ChosenTask::Motion {
+        let of_motion = |term: &&ObservationTerm| {
+            let row = MOTION_OBSERVATION.iter().find(|row| row.name == term.name).with_context(|| unknown(&term.name))?;
+            let MotionTerm { name, unit, frame, .. } = *row;
+            Ok(Term { name, mjlab_name: name, unit, frame, deploy_params: String::new(), size: term.range.len() })
+        };
+        return of_policy.iter().map(of_motion).collect();
+    }
     of_policy[..of_policy.len() / environment.config().velocity.history as usize]
         .iter()
         .map(|term| {
             let row = TERMS.iter().find(|row| row.name == term.name);
-            let row =
-                row.with_context(|| format!("the policy observes `{}`, which is no term of the task", term.name))?;
-            Ok(Term { row, size: term.range.len() })
+            let row = row.with_context(|| unknown(&term.name))?;
+            let TermRow { name, mjlab_name, unit, frame, .. } = *row;
+            let deploy_params = (row.deploy_params)(&environment.config().velocity);
+            Ok(Term { name, mjlab_name, unit, frame, deploy_params, size: term.range.len() })
         })
         .collect()
 }

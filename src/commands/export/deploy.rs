@@ -43,7 +43,7 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
         scale = of(|joint| joint.action_scale_rad),
     );
     for term in &contract.terms {
-        let (name, params) = (term.row.name, (term.row.deploy_params)(velocity));
+        let (name, params) = (term.name, &term.deploy_params);
         let ones = list(vec![1.0; term.size]);
         writeln!(
             text,

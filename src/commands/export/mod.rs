@@ -9,6 +9,7 @@
 mod contract;
 mod deploy;
 mod ground;
+mod imitated;
 mod walk;
 
 use std::{
@@ -75,7 +76,7 @@ pub fn run(args: &ExportArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             format!("--ground needs a run with generated ground, and `{}` has none; leave --ground out", args.run);
         return Err(Usage(why).into());
     }
-    if contract.is_none() && args.deploy.is_some() {
+    if contract.as_ref().is_none_or(Contract::imitates) && args.deploy.is_some() {
         let (run, task) = (&args.run, config.task_name());
         let why = format!(
             "--deploy needs a policy of the velocity task, and `{run}` was trained for `{task}`; leave --deploy out"

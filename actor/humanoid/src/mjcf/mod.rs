@@ -39,7 +39,7 @@ mod tree;
 mod urdf;
 mod visual;
 mod vocabulary;
-mod xml;
+pub(crate) mod xml;
 
 use std::collections::BTreeMap;
 

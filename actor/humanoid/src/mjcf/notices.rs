@@ -8,6 +8,7 @@ use super::element::Attribute;
 use super::vocabulary::is_inert;
 use super::xml::{self, elements, sections};
 use super::{assets, card_text};
+use crate::motion::is_motion;
 
 /// Name of a `<text>` in `<custom>` that holds a note.
 const NOTICE: &str = "treadmill_notice";
@@ -71,7 +72,8 @@ pub(super) fn ignored(root: Node<'_, '_>) -> BTreeMap<String, usize> {
             match is_inert(tag) {
                 true if matches!(tag, "sensor" | "custom") => {
                     let within = elements(child)
-                        .filter(|part| !card_text::is_card(part) && !is_notice(part) && !assets::is_moments(part));
+                        .filter(|part| !card_text::is_card(part) && !is_motion(part))
+                        .filter(|part| !is_notice(part) && !assets::is_moments(part));
                     let count = within.count();
                     if count > 0 {
                         *found.entry(tag.to_owned()).or_default() += count;

@@ -309,6 +309,7 @@ impl<'a> Reader<'a> {
             gravity_mps2: tree.gravity_mps2,
             solver: tree.solver,
             robot: None,
+            motions: Vec::new().into(),
             simplifications: self.simplifications,
             ground: floor.into_ground(),
         };
@@ -322,6 +323,9 @@ impl<'a> Reader<'a> {
         if let Some(card) = &tree.card {
             card.apply(&mut model)?;
         }
+        let names: Vec<String> = model.hinges.iter().map(|hinge| hinge.name.clone()).collect();
+        let motions = tree.motions.iter().map(|motion| motion.in_order_of(&names));
+        model.motions = motions.collect::<Result<_, _>>().map_err(|why| ModelError::Motion(why.to_string()))?;
         Ok(model)
     }
 

@@ -13,6 +13,7 @@ use super::pose::{Angles, Pose};
 use super::vocabulary::{self, is_inert};
 use super::xml::{elements, sections};
 use crate::card::RobotCard;
+use crate::motion::{self, Motion};
 use crate::error::ModelError;
 use crate::model::Solver;
 
@@ -34,6 +35,8 @@ pub(super) struct Tree {
     pub(super) keys: Vec<Element>,
     pub(super) assets: Assets,
     pub(super) card: Option<RobotCard>,
+    /// Motions.
+    pub(super) motions: Vec<Motion>,
 }
 
 /// Site, which only an equality may need.
@@ -122,6 +125,7 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
         keys: Vec::new(),
         assets: Assets::default(),
         card: card_text::in_document(document)?,
+        motions: motion::in_document(document)?,
     };
     for asset in sections(root, "asset").flat_map(elements).filter(|asset| !is_inert(asset.tag_name().name())) {
         tree.assets.read(asset, &builder.classes)?;

@@ -8,7 +8,7 @@ use super::element::Attribute;
 use crate::error::ModelError;
 
 /// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand bytes.
-pub const MODEL_BYTES_MAX: usize = 4 << 20;
+pub const MODEL_BYTES_MAX: usize = 16 << 20;
 /// Deepest nesting of elements: XML readers recurse, and the stack is finite.
 const DEPTH_MAX: usize = 100;
 
@@ -23,7 +23,7 @@ pub(super) fn parse_model(text: &str) -> Result<Document<'_>, ModelError> {
 }
 
 /// Parses any XML text.
-pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
+pub(crate) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
     if text.len() > MODEL_BYTES_MAX {
         return Err(ModelError::TooLarge { bytes: text.len() as u64, limit: MODEL_BYTES_MAX as u64 });
     }
@@ -37,24 +37,24 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
 }
 
 /// Returns the outermost sections of a kind.
-pub(super) fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
+pub(crate) fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
     elements(root).filter(move |node| node.has_tag_name(tag))
 }
 
 /// Returns the elements within another.
-pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
+pub(crate) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
     node.children().filter(Node::is_element)
 }
 
 /// Returns a model text with more elements in a `<custom>`, which MuJoCo ignores.
-pub(super) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
+pub(crate) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
     let root = parse_model(text)?.root_element().range();
     let end = text[..root.end].rfind("</").unwrap_or(root.end);
     Ok(format!("{}<custom>{elements}</custom>\n{}", &text[..end], &text[end..]))
 }
 
 /// Writes an element without content.
-pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
+pub(crate) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
     open(text, tag, attributes);
     let _ = writeln!(text, "</{tag}>");
 }
@@ -143,7 +143,7 @@ mod tests {
         assert!(problem(" \n").contains("empty"));
         assert!(problem("<robot/>").contains("`robot`"));
         assert!(problem(&format!("<mujoco>{}", "<body>".repeat(200_000))).contains("nested"));
-        assert!(problem(&" ".repeat(MODEL_BYTES_MAX + 1)).contains("4194305 bytes"));
+        assert!(problem(&" ".repeat(MODEL_BYTES_MAX + 1)).contains("16777217 bytes"));
         assert!(matches!(parse("mass = 3"), Err(ModelError::Parse(_))));
     }
 }

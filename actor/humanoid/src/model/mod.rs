@@ -17,6 +17,7 @@ mod softness;
 mod turn;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
@@ -30,6 +31,8 @@ pub use self::robot::{HingeControl, Robot};
 pub use self::softness::Softness;
 pub(crate) use self::softness::SolverNumbers;
 pub use self::turn::BaseAxis;
+
+use crate::motion::Motion;
 
 /// Most tendons; a bound because every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;
@@ -75,6 +78,8 @@ pub struct Model {
     pub solver: Solver,
     /// What the robot's card says, if the text has one.
     pub robot: Option<Robot>,
+    /// Motions to imitate, if the text has some.
+    pub motions: Arc<[Motion]>,
     /// What is simulated more simply than the text says.
     pub simplifications: Vec<String>,
 }

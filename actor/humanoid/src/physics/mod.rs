@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-pub use self::motion::BodyMotion;
+pub use self::motion::{BodyMotion, LinkMotion};
 use self::variation::VariableModel;
 pub use self::variation::Variation;
 use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS, Structure};
@@ -220,6 +220,12 @@ impl Physics {
         if self.is_faulty { Err(PhysicsFault) } else { Ok(()) }
     }
 
+    /// Returns the settings.
+    #[must_use]
+    pub fn settings(&self) -> &PhysicsSettings {
+        &self.settings
+    }
+
     /// Returns the simulated model, with the present variation.
     #[must_use]
     pub fn model(&self) -> &Model {
@@ -315,6 +321,18 @@ impl Physics {
     pub fn link_pose(&self, link: usize) -> Isometry3<f64> {
         let of = &self.model.links[link];
         self.body_motion(of.body).pose * of.pose
+    }
+
+    /// Returns where the frame of a link is in the world, and how it moves.
+    #[must_use]
+    pub fn link_motion(&self, link: usize) -> LinkMotion {
+        let of = &self.model.links[link];
+        let body = self.body_motion(of.body);
+        let pose = body.pose * of.pose;
+        let centre = body.pose * self.model.bodies[of.body].centre_of_mass_m;
+        let from_centre_m = pose.translation.vector - centre.coords;
+        let linear_mps = body.linear_mps + body.angular_radps.cross(&from_centre_m);
+        LinkMotion { pose, linear_mps, angular_radps: body.angular_radps }
     }
 
     /// Returns the mean contact force (N) on one link during the last control step, and its moment about the whole

@@ -15,6 +15,17 @@ pub struct BodyMotion {
     pub angular_radps: Vector3<f64>,
 }
 
+/// Motion of the frame of one link in the world frame.
+#[derive(Clone, Copy, Debug)]
+pub struct LinkMotion {
+    /// Pose of the link's frame (m).
+    pub pose: Isometry3<f64>,
+    /// Velocity of its origin (m/s).
+    pub linear_mps: Vector3<f64>,
+    /// Angular velocity (rad/s).
+    pub angular_radps: Vector3<f64>,
+}
+
 impl World {
     fn root_m(&self) -> Vector3<f64> {
         Vector3::from_column_slice(&self.position[..3])

@@ -5,10 +5,12 @@
 //!
 //! # Layout
 //! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
+//! - [`motion`]: imitation of motions.
 //! - `registry`: builds the task that a configuration selects, also those of the program that uses this crate.
 //! - [`velocity`]: walking at commanded velocities.
 
 mod humanoid;
+pub mod motion;
 mod registry;
 pub mod velocity;
 
@@ -19,10 +21,14 @@ use nalgebra::Point3;
 pub use self::humanoid::{HumanoidTask, contact_cost, is_healthy};
 pub use self::registry::{TaskBuilder, TaskRegistry};
 use crate::error::StateError;
+use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
 pub use crate::observation::ObservationTerm;
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
+
+/// Share of a hinge's range, from its middle, beyond which it is near its limit.
+const SOFT_LIMIT_SHARE: f64 = 0.9;
 
 /// A control step that the physics has simulated.
 #[derive(Clone, Copy)]
@@ -33,6 +39,14 @@ pub struct Step<'a> {
     pub action: &'a [f32],
     /// Centre of mass of the whole robot before the step (m, world frame).
     pub centre_before_m: Point3<f64>,
+}
+
+/// State in which an episode begins.
+pub struct Start<'a> {
+    /// Position vector, see [`Physics::position`]; its quaternion need not be normalised.
+    pub position: &'a mut [f64],
+    /// Velocity vector, see [`Physics::velocity`].
+    pub velocity: &'a mut [f64],
 }
 
 /// Reward of a control step, and whether the task ends the episode.
@@ -90,14 +104,19 @@ pub trait Task: Any + Send + Sync {
     /// Returns the terms of an observation, in order and without gaps.
     fn terms(&self) -> &[ObservationTerm];
 
-    /// Changes the position at which a new episode starts, see [`Physics::position`]; its quaternion need not be normalised.
+    /// Changes the state in which a new episode starts.
     /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
-    fn start(&mut self, _seed: u64, _physics: &Physics, _position: &mut [f64]) {}
+    fn start(&mut self, _seed: u64, _physics: &Physics, _start: Start<'_>) {}
 
     /// Returns whether the lowest part of the robot begins each episode as high above the ground as in the default pose. The
     /// noise of the start, see `env.reset_noise_scale`, otherwise lifts robots, or sinks them into the ground, which throws
     /// them up.
     fn starts_on_ground(&self) -> bool {
+        false
+    }
+
+    /// Returns whether a robot that would begin in the ground is lifted onto it.
+    fn stays_above_ground(&self) -> bool {
         false
     }
 
@@ -165,6 +184,17 @@ pub trait Task: Any + Send + Sync {
             found => Err(StateError::Length { what: "task", found, expected: 0 }),
         }
     }
+}
+
+/// Returns the angle beyond nine tenths of the hinges' ranges, summed over the hinges (rad).
+fn beyond_soft_limits_rad(model: &Model, angles_rad: &[f64]) -> f64 {
+    let hinges = model.hinges.iter().zip(angles_rad);
+    hinges
+        .map(|(hinge, angle_rad)| {
+            let half_rad = SOFT_LIMIT_SHARE * (hinge.max_rad - hinge.min_rad) / 2.0;
+            ((angle_rad - hinge.centre_rad()).abs() - half_rad).max(0.0)
+        })
+        .sum()
 }
 
 impl StepEvaluation {

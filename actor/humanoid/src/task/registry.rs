@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{HumanoidTask, Task, velocity::VelocityTask};
+use super::{HumanoidTask, Task, motion::MotionTask, velocity::VelocityTask};
 use crate::config::{ChosenTask, EnvironmentConfig, is_task_name};
 use crate::error::ModelError;
 use crate::physics::Physics;
@@ -47,6 +47,7 @@ impl TaskRegistry {
         let name = match config.env.chosen_task() {
             ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => return Ok(Box::new(HumanoidTask::new(config, physics))),
             ChosenTask::Velocity => return Ok(Box::new(VelocityTask::new(config, physics)?)),
+            ChosenTask::Motion => return Ok(Box::new(MotionTask::new(config, physics)?)),
             ChosenTask::External => {
                 return Err(ModelError::Task("other programs simulate the external task".to_owned()));
             }

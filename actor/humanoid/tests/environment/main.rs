@@ -9,6 +9,7 @@ mod episodes;
 #[path = "../golden/mod.rs"]
 mod golden;
 mod ground;
+mod motion;
 mod observations;
 mod physics_version;
 mod randomisation;

@@ -11,6 +11,8 @@ choice! {
         HumanoidV4 = "humanoid-v4",
         /// Walking at commanded velocities, for robots with a card.
         Velocity = "velocity",
+        /// Imitation of motions, for robots with a card.
+        Motion = "motion",
         /// Task that other programs simulate and register.
         External = "external",
     }
@@ -37,6 +39,8 @@ pub enum ChosenTask<'a> {
     HumanoidV4,
     /// Walking at commanded velocities.
     Velocity,
+    /// Imitation of motions.
+    Motion,
     /// Task that other programs simulate.
     External,
     /// Task that the program defines itself, by its name.
@@ -54,9 +58,9 @@ section! {
     /// Humanoid task, by default Gymnasium's Humanoid-v5. Keys have the names of Gymnasium's arguments.
     EnvConfig as "env" {
         /// Task, which sets rewards and info. v4 has no contact cost, and adds the healthy reward also on the step that ends
-        /// an episode. "velocity" follows commands and has sections of its own, `[velocity]` and `[rewards]`. "external" is
-        /// a task that actors in other languages register.
-        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\", \"velocity\" or \"external\"" => |_| true;
+        /// an episode. "velocity" follows commands and has sections of its own, `[velocity]` and `[rewards]`. "motion"
+        /// imitates what `--motion` gives, see `[motion]`. "external" is a task that actors in other languages register.
+        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\", \"velocity\", \"motion\" or \"external\"" => |_| true;
         /// Name of a task that the program defines itself, in place of `env.task`; empty means none. See
         /// docs/guide/own-task.md.
         own_task: String = String::new(), "at most 64 of the characters a-z, 0-9 and -"
@@ -119,6 +123,7 @@ impl EnvConfig {
             ("", EnvTask::HumanoidV5) => ChosenTask::HumanoidV5,
             ("", EnvTask::HumanoidV4) => ChosenTask::HumanoidV4,
             ("", EnvTask::Velocity) => ChosenTask::Velocity,
+            ("", EnvTask::Motion) => ChosenTask::Motion,
             ("", EnvTask::External) => ChosenTask::External,
             (own, _) => ChosenTask::Own(own),
         }

@@ -4,12 +4,14 @@
 
 mod env;
 mod ground;
+mod motion;
 mod randomisation;
 mod rewards;
 mod velocity;
 
 pub use self::env::{ChosenTask, EnvConfig, EnvObservation, EnvTask, is_task_name};
 pub use self::ground::{GroundConfig, GroundKind};
+pub use self::motion::{MOTION_TERMS, MotionConfig, MotionRewards};
 pub use self::randomisation::RandomisationConfig;
 pub use self::rewards::{REWARD_TERMS, RewardFunctions, RewardsConfig};
 pub use self::velocity::{HEADING_GAIN, VelocityConfig};
@@ -27,6 +29,8 @@ pub struct EnvironmentConfig {
     pub velocity: VelocityConfig,
     /// Rewards of the velocity task.
     pub rewards: RewardsConfig,
+    /// Motion task.
+    pub motion: MotionConfig,
     /// Ground.
     pub ground: GroundConfig,
     /// Randomisation.
@@ -40,6 +44,7 @@ impl Default for EnvironmentConfig {
             env: EnvConfig::default(),
             velocity: VelocityConfig::default(),
             rewards: RewardsConfig::default(),
+            motion: MotionConfig::default(),
             ground: GroundConfig::default(),
             randomisation: RandomisationConfig::default(),
         }
@@ -55,11 +60,12 @@ impl From<EnvConfig> for EnvironmentConfig {
 impl EnvironmentConfig {
     /// Returns the description of each section.
     #[must_use]
-    pub fn sections() -> [SectionDoc; 5] {
+    pub fn sections() -> [SectionDoc; 6] {
         [
             EnvConfig::describe(),
             VelocityConfig::describe(),
             RewardsConfig::describe(),
+            MotionConfig::describe(),
             GroundConfig::describe(),
             RandomisationConfig::describe(),
         ]
@@ -85,6 +91,7 @@ impl EnvironmentConfig {
         self.env.check()?;
         self.velocity.check()?;
         self.rewards.check()?;
+        self.motion.check()?;
         self.ground.check()?;
         self.randomisation.check()?;
         self.check_observation()?;
@@ -121,7 +128,8 @@ impl EnvironmentConfig {
         if ground.kinds.is_empty() {
             return Ok(());
         }
-        if matches!(self.env.chosen_task(), ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4) {
+        let task = self.env.chosen_task();
+        if matches!(task, ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 | ChosenTask::Motion) {
             let allowed =
                 "[] where env.task is not \"velocity\", since only the velocity task starts on generated ground";
             return refuse("ground.kinds", show(&ground.kinds), allowed);

@@ -48,22 +48,19 @@ impl Foot {
 
     /// Returns where the frame of a foot is (m, world).
     pub(super) fn origin_m(physics: &Physics, link: usize) -> Point3<f64> {
-        let link_of = &physics.model().links[link];
-        physics.body_motion(link_of.body).pose * Point3::from(link_of.pose.translation.vector)
+        Point3::from(physics.link_pose(link).translation.vector)
     }
 
     /// Returns the foot on `link` without a past.
     #[must_use]
     pub fn now(physics: &Physics, link: usize, standing_m: f64) -> Self {
-        let link_of = &physics.model().links[link];
-        let body = physics.body_motion(link_of.body);
-        let origin = Self::origin_m(physics, link);
-        let centre = body.pose * physics.model().bodies[link_of.body].centre_of_mass_m;
+        let moved = physics.link_motion(link);
+        let origin = Point3::from(moved.pose.translation.vector);
         let ground_m = physics.ground_height_m(origin.x, origin.y);
         Self {
             lift_m: origin.z - ground_m - standing_m,
             rise_m: (highest_within_reach_m(physics, &origin) - ground_m).max(0.0),
-            velocity_mps: body.linear_mps + body.angular_radps.cross(&(origin - centre)),
+            velocity_mps: moved.linear_mps,
             stands: physics.contact_wrench(link).0.z > STANDING_FORCE_N,
             ..Self::default()
         }

@@ -7,6 +7,7 @@ use super::feet::{FEET, Foot, Stride, stride};
 use crate::config::{RewardFunctions, VelocityConfig};
 use crate::model::Model;
 use crate::physics::Physics;
+use crate::task::beyond_soft_limits_rad;
 
 /// Time in the air from which a landing is rewarded (s).
 const AIR_TIME_S: f64 = 0.4;
@@ -14,8 +15,6 @@ const AIR_TIME_S: f64 = 0.4;
 /// gait never rests does so.
 const SLOW_MPS: f64 = 0.3;
 const UPRIGHT: f64 = 0.1;
-/// Share of a hinge's range, from its middle, beyond which it is near its limit.
-const SOFT_LIMIT_SHARE: f64 = 0.9;
 /// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
 const LATERAL_AXIS: f64 = 0.8;
 /// Weight of hinges that swing the legs forwards in the term `pose`.
@@ -241,13 +240,7 @@ impl RewardFunctions for RobotStep<'_> {
     }
 
     fn joint_limits(&self) -> f64 {
-        let angles_rad = self.model.hinges.iter().zip(self.hinges.angles_rad);
-        angles_rad
-            .map(|(hinge, angle_rad)| {
-                let half_rad = SOFT_LIMIT_SHARE * (hinge.max_rad - hinge.min_rad) / 2.0;
-                ((angle_rad - hinge.centre_rad()).abs() - half_rad).max(0.0)
-            })
-            .sum()
+        beyond_soft_limits_rad(self.model, self.hinges.angles_rad)
     }
 }
 
