@@ -41,8 +41,10 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Train: run a learner in this process and start actor processes beside it.
+    #[command(mut_arg("motion_fps", |arg| arg.visible_alias("fps")))]
     Train(train::TrainArgs),
     /// Run only the learner; actors join from other terminals or machines.
+    #[command(mut_arg("motion_fps", |arg| arg.visible_alias("fps")))]
     Learner(learner::LearnerArgs),
     /// Run only an actor; the learner sends task and settings.
     Actor(actor::ActorArgs),

@@ -110,7 +110,7 @@ pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
     Pose {
         command: command.map(narrow).unwrap_or_default(),
         base_velocity: command.map(|_| narrow(heading_velocity(physics))).unwrap_or_default(),
-        bodies: physics.body_motions().flat_map(|motion| body_numbers(&motion)).collect(),
+        bodies: bodies(physics),
         contacts: contacts(physics),
         joint_torques_nm: all(physics.joint_torques_nm()),
         joint_angles_rad: all(physics.joint_angles()),
@@ -129,6 +129,12 @@ pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
 pub fn heading_velocity(physics: &Physics) -> [f64; 3] {
     let base = BaseMotion::new(physics.position(), physics.velocity(), 0.0);
     [base.velocity_mps.x, base.velocity_mps.y, base.yaw_rate_radps]
+}
+
+/// Returns position (m) and quaternion w, x, y, z of each body.
+#[must_use]
+pub fn bodies(physics: &Physics) -> Vec<f32> {
+    physics.body_motions().flat_map(|motion| body_numbers(&motion)).collect()
 }
 
 fn body_numbers(motion: &BodyMotion) -> [f32; BODY_NUMBERS] {

@@ -10,6 +10,17 @@ export const SPACING_M = 1.5;
 /** Point of a body, in its frame (m). */
 export type Foot = { body: number; at: THREE.Vector3 };
 
+const GHOST = new THREE.MeshStandardMaterial({ color: 0x9fb3c8, transparent: true, opacity: 0.35, depthWrite: false });
+
+/** A copy of a body in the colour of ghosts, with the same geometry. */
+function translucent(body: THREE.Group): THREE.Group {
+  const copy = new THREE.Group();
+  for (const part of body.children) {
+    if (part instanceof THREE.Mesh) copy.add(new THREE.Mesh(part.geometry, GHOST));
+  }
+  return copy;
+}
+
 export class Robot {
   readonly group = new THREE.Group();
   /** Where the base is drawn: its position in the world and the offset. */
@@ -22,6 +33,8 @@ export class Robot {
   top_m = 0.5;
   height_m = 1;
   readonly bodies: THREE.Group[] = [];
+  /** The motion that the robot imitates, where that is. */
+  readonly ghost = new THREE.Group();
   /** Feet that were left and right of the base when it was first drawn. */
   readonly feet: Record<"left" | "right", Foot[]> = { left: [], right: [] };
   private readonly from = new THREE.Quaternion();
@@ -49,7 +62,7 @@ export class Robot {
       this.group.add(body);
     }
     // Nothing is known of the pose before the first frame.
-    this.group.visible = false;
+    this.group.visible = this.ghost.visible = false;
   }
 
   /** Takes the pose at `sample`. */
@@ -63,8 +76,20 @@ export class Robot {
     const [from, to] = [before.frame.centreOfMassM, after.frame.centreOfMassM];
     this.hasCentre = from.length === 3 && to.length === 3;
     if (this.hasCentre) lerp(this.centre, from, to);
-    const [p, q] = [before.bodies, after.bodies];
-    for (const [index, body] of this.bodies.entries()) {
+    this.placeBodies(this.bodies, before.bodies, after.bodies, mix);
+    this.ghost.visible = before.ghost.length > 0 && after.ghost.length > 0;
+    if (this.ghost.visible) {
+      if (this.ghost.children.length === 0) this.ghost.add(...this.bodies.map(translucent));
+      lerp(this.ghost.position, before.frame.ghostBaseM, after.frame.ghostBaseM);
+      this.placeBodies(this.ghost.children, before.ghost, after.ghost, mix);
+    }
+    const { x, y, z, w } = this.bodies[0]?.quaternion ?? this.from.identity();
+    this.yaw_rad = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    if (!this.group.visible) this.measure();
+  }
+
+  private placeBodies(bodies: readonly THREE.Object3D[], p: Float32Array, q: Float32Array, mix: number): void {
+    for (const [index, body] of bodies.entries()) {
       const at = BODY_NUMBERS * index;
       if (at + BODY_NUMBERS > p.length || at + BODY_NUMBERS > q.length) break;
       const position = (axis: number) => p[at + axis]! + mix * (q[at + axis]! - p[at + axis]!);
@@ -74,9 +99,6 @@ export class Robot {
       // Takes the nearer of the two signs of a quaternion.
       body.quaternion.slerpQuaternions(this.from, this.to, mix);
     }
-    const { x, y, z, w } = this.bodies[0]?.quaternion ?? this.from.identity();
-    this.yaw_rad = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-    if (!this.group.visible) this.measure();
   }
 
   private measure(): void {

@@ -22,7 +22,14 @@ export const BODY_NUMBERS = 7;
 const NO_BYTES = new Uint8Array();
 
 /** A frame, whose packed numbers are here instead. */
-export type Moment = { frame: PageFrame; shown_s: number; bodies: Float32Array; contacts: Int16Array };
+export type Moment = {
+  frame: PageFrame;
+  shown_s: number;
+  bodies: Float32Array;
+  contacts: Int16Array;
+  /** Bodies of the motion that the robot imitates, from its own base; empty without one. */
+  ghost: Float32Array;
+};
 
 /** What a robot shows at a time: `mix` 0 is `before`, 1 is `after`. */
 export type Sample = { before: Moment; after: Moment; mix: number };
@@ -91,9 +98,10 @@ export class Timeline {
     if (shown_s < last_s) this.clear();
     if (shown_s > this.newest_s) this.arrive(performance.now() / 1000);
     const track = (this.tracks[robot] ??= []);
-    track.push({ frame, shown_s, bodies: unpackBodies(frame.bodies), contacts: unpack(frame.contacts) });
+    const [bodies, ghost] = [unpackBodies(frame.bodies), unpackBodies(frame.ghost)];
+    track.push({ frame, shown_s, bodies, contacts: unpack(frame.contacts), ghost });
     // They would keep the whole message in memory.
-    frame.bodies = frame.contacts = NO_BYTES;
+    frame.bodies = frame.contacts = frame.ghost = NO_BYTES;
     // Removed in lumps, as each removal moves the whole array.
     const old = find(track, shown_s - KEPT_S);
     if (old >= 64) track.splice(0, old);

@@ -105,11 +105,12 @@ export class View {
 
   /** Replaces the robots. */
   setRobots(robots: readonly PageRobot[]): void {
-    for (const old of [...this.robots.map((robot) => robot.group), ...this.labels]) discard(old);
+    for (const { group, ghost } of this.robots) [group, ghost].forEach(discard);
+    this.labels.forEach(discard);
     const middle = (robots.length - 1) / 2;
     this.robots = robots.map((robot, index) => new Robot(robot, (middle - index) * SPACING_M));
     this.labels = robots.length > 1 ? robots.map((robot) => label(robot.name)) : [];
-    this.scene.add(...this.robots.map((robot) => robot.group), ...this.labels);
+    this.scene.add(...this.robots.flatMap(({ group, ghost }) => [group, ghost]), ...this.labels);
     this.framed = false;
   }
 

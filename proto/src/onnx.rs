@@ -61,6 +61,16 @@ pub struct OnnxMotion {
     pub tables: Vec<(&'static str, Vec<usize>, Vec<f32>)>,
 }
 
+/// What a model adds to its actions: the first entries of the observation, one for each action, less `centre`, divided by
+/// `scale`. The sum is within the lowest and the highest action.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnnxOffset {
+    /// `[action]`
+    pub centre: Vec<f32>,
+    /// `[action]`
+    pub scale: Vec<f32>,
+}
+
 /// Name of the input that chooses the row of a motion, `[1, 1]`, float32 as in mjlab.
 pub const TIME_STEP: &str = "time_step";
 
@@ -83,6 +93,8 @@ pub struct OnnxPolicy<'a> {
     pub ports: Ports,
     /// Motion, for policies that imitate one.
     pub motion: Option<&'a OnnxMotion>,
+    /// What is added to the actions.
+    pub offset: Option<&'a OnnxOffset>,
     /// What the model turns into what, for readers.
     pub doc: &'a str,
     /// Names and values of the model's metadata.
@@ -118,6 +130,7 @@ impl OnnxPolicy<'_> {
         graph.constant("action_centre", &[centre.len()], &centre);
         let x = graph.node("Mul", &[&x, "action_half"], "stretched", &[]);
         let x = graph.node("Add", &[&x, "action_centre"], "bounded", &[]);
+        let x = self.offset.map_or(x.clone(), |offset| graph.offset(offset, [&x, input], [self.low, self.high]));
         graph.tensor("entries", &[1], INT64, 1_i64.to_le_bytes().to_vec().into());
         let zeros = graph.node("Sub", &[input, input], "zeros", &[]);
         let fault = graph.node("ReduceSum", &[&zeros, "entries"], "fault", &[whole("keepdims", 1)]);
@@ -173,6 +186,26 @@ impl Graph {
             attribute: attributes.to_vec(),
         });
         output.to_string()
+    }
+
+    /// Adds what an offset adds to actions within these ends; returns the sum.
+    fn offset(&mut self, offset: &OnnxOffset, [actions, input]: [&str; 2], [low, high]: [&[f32]; 2]) -> String {
+        let OnnxOffset { centre, scale } = offset;
+        let inverse: Vec<f32> = scale.iter().map(|scale| 1.0 / scale).collect();
+        for (name, numbers) in [("offset_centre", centre), ("offset_inverse_scale", &inverse)] {
+            self.constant(name, &[numbers.len()], numbers);
+        }
+        self.constant("action_low", &[low.len()], low);
+        self.constant("action_high", &[high.len()], high);
+        for (name, number) in [("offset_from", 0), ("offset_to", centre.len() as i64), ("offset_axis", 1)] {
+            self.tensor(name, &[1], INT64, number.to_le_bytes().to_vec().into());
+        }
+        let x = self.node("Slice", &[input, "offset_from", "offset_to", "offset_axis"], "offset_entries", &[]);
+        let x = self.node("Sub", &[&x, "offset_centre"], "offset_apart", &[]);
+        let x = self.node("Mul", &[&x, "offset_inverse_scale"], "offset", &[]);
+        let x = self.node("Add", &[actions, &x], "moved", &[]);
+        let x = self.node("Max", &[&x, "action_low"], "moved_up", &[]);
+        self.node("Min", &[&x, "action_high"], "moved_within", &[])
     }
 
     /// Adds the tables of a motion; returns their outputs.

@@ -55,6 +55,8 @@ fn actions_match_a_hand_computation() {
         low: &[-0.2],
         high: &[0.6],
         ports: Ports::ANY_BATCH,
+        motion: None,
+        offset: None,
         doc: "c",
         metadata: vec![("treadmill.a".into(), "b".into())],
     };

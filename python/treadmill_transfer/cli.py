@@ -142,12 +142,16 @@ def walked(args, policy):
 
 def imitated(args, policy):
     """Plays a policy of the motion task. Returns the exit code."""
-    unused = [flag for flag, value in (("--commands", args.commands), ("--ground", args.ground), ("--trace", args.trace)) if value]
+    unused = [flag for flag, value in (("--commands", args.commands), ("--ground", args.ground)) if value]
     if unused:
         raise TransferError(f"{unused[0]} is not for policies of the motion task; leave it out")
     imitator = motion.Imitator(args.model, policy, args.timestep)
     for note in [] if args.json else imitator.notes:
         print(f"note: {note}", file=sys.stderr)
+    if args.trace:
+        tolerances = tolerances_of(args)
+        lines = read_trace(args.trace, len(imitator.robot.hinge_names), walk.KEYS)
+        return compared(args, lines, tolerances, *motion.compare(imitator, lines, tolerances))
     with Shown(args, imitator) as shown:
         episodes = []
         if not args.json:

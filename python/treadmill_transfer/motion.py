@@ -9,6 +9,7 @@ import numpy
 from .commands import Pushes
 from .contract import Joints, TransferError
 from .robot import Robot
+from .trace import largest_difference
 
 TABLES = ("joint_pos", "joint_vel", "body_pos_w", "body_quat_w", "body_lin_vel_w", "body_ang_vel_w")
 
@@ -40,6 +41,7 @@ class MotionContract:
     anchor_height_max_m: float
     anchor_tilt_max: float
     end_height_max_m: float
+    residual: bool
     start: dict
 
     @property
@@ -74,6 +76,7 @@ def read_motion_contract(fields, shared):
         anchor_height_max_m=of.number("anchor_height_max_m", above=0.0),
         anchor_tilt_max=of.number("anchor_tilt_max", above=0.0),
         end_height_max_m=of.number("end_effector_height_max_m", above=0.0),
+        residual=bool(of.get("residual_action")),
         start={name: of.number(f"start_{name}") for name in names},
     )
 
@@ -217,6 +220,36 @@ _TERMS = {
     "joint_vel": lambda self: self.robot.rates_radps,
     "actions": lambda self: self.action,
 }
+
+
+def compare(imitator, lines, tolerances):
+    """Compares observation and action of each line of a trace. Returns the first difference, or None, and the largest of each boundary."""
+    contract, first, largest = imitator.contract, None, dict.fromkeys(("observation", "action"), 0.0)
+    centre, scale, limit = contract.joints.default_rad, contract.action_scale, contract.action_limit
+    names = [f"{name}[{entry}]" for name, size in contract.observation for entry in range(size)]
+    episode, step = None, 0
+    for line in lines:
+        if line["episode"] != episode:
+            episode, step = line["episode"], 0
+        motion = contract.motions[0]
+        imitator.row, imitator.last_row = motion["first_row"] + step, motion["first_row"] + motion["rows"] - 1
+        step += 1
+        imitator.robot.set_state(line["qpos"], line["qvel"])
+        seen = line["observation"][: contract.width]
+        # The last action is part of the line alone.
+        imitator.action = seen[-len(contract.joints.names) :]
+        offset = (imitator.tables["joint_pos"][imitator.row] - centre) / scale if contract.residual else 0.0
+        expected_action = numpy.clip(limit * numpy.clip(line["action"], -1.0, 1.0) + offset, -limit, limit)
+        for boundary, found, expected, name_of in (
+            ("observation", imitator.observe(), seen, names.__getitem__),
+            ("action", imitator.policy.act(seen), expected_action, contract.outputs.__getitem__),
+        ):
+            entry, off = largest_difference(found, expected)
+            largest[boundary] = max(largest[boundary], off)
+            if first is None and not off <= tolerances[boundary]:
+                values = {"here": float(found[entry]), "trace": float(expected[entry]), "tolerance": tolerances[boundary]}
+                first = {"boundary": boundary, "episode": int(episode), "step": step, "entry": name_of(entry), **values}
+    return first, largest
 
 
 def play_episode(imitator, seed, index, pushes=True, shown=None):

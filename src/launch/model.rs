@@ -100,7 +100,7 @@ fn with_servos<'a>(
     let needs_card = matches!(config.env.chosen_task(), ChosenTask::Velocity | ChosenTask::Motion);
     match (config.env.robot.as_str(), file) {
         ("", _) if needs_card && mjcf::card_of(&text).is_none() => {
-            let card = mjcf::card_of(like).map_or_else(|| found_card(&text, file), Ok)?;
+            let card = mjcf::card_of(like).map_or_else(|| found_card(config, &text, file), Ok)?;
             let whole = mjcf::with_card(&text, &card).map_err(|why| in_file(file, &why))?;
             Ok(Cow::Owned(whole))
         }
@@ -120,9 +120,11 @@ fn with_servos<'a>(
 ///
 /// # Errors
 /// All that cannot be found, and how to give it.
-fn found_card(text: &str, file: Option<&Path>) -> Result<String, Usage> {
+fn found_card(config: &Config, text: &str, file: Option<&Path>) -> Result<String, Usage> {
     let proposed = Model::without_motors(text).and_then(|model| Proposal::of(&model));
-    let Proposal { card, missing } = proposed.map_err(|why| in_file(file, &why))?;
+    let proposed = proposed.map_err(|why| in_file(file, &why))?;
+    let is_motion = config.env.chosen_task() == ChosenTask::Motion;
+    let Proposal { card, missing } = if is_motion { proposed.moving_all() } else { proposed };
     if missing.is_empty() {
         return Ok(card);
     }

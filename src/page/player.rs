@@ -1,14 +1,15 @@
 //! One policy and its environment, played for the page.
 
-use std::{fs, time::SystemTime};
+use std::{any::Any, fs, time::SystemTime};
 
 use anyhow::Context;
+use bytes::Bytes;
 use treadmill_actor::{
     agent::{Agent, PolicyAgent},
     poses,
 };
-use treadmill_config::{Config, RandomisationConfig};
-use treadmill_humanoid::{Environment, Model, TaskRegistry};
+use treadmill_config::{ChosenTask, Config, RandomisationConfig};
+use treadmill_humanoid::{Environment, Model, Physics, TaskRegistry, task::motion::MotionTask};
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_proto::{
     Pose,
@@ -62,6 +63,8 @@ pub struct Player {
     action: Vec<f32>,
     control: Vec<f32>,
     has_ended: bool,
+    /// Robot that is where the motion is, for the motion task.
+    ghost: Option<Physics>,
 }
 
 impl Player {
@@ -93,7 +96,9 @@ impl Player {
             control: action.clone(),
             action,
             has_ended: true,
+            ghost: None,
         };
+        player.add_ghost()?;
         player.begin_episode();
         Ok(player)
     }
@@ -217,7 +222,8 @@ impl Player {
     }
 
     /// Returns the present frame, for the robot with this number.
-    pub fn frame(&self, robot: u32, shown_s: f64) -> PageFrame {
+    pub fn frame(&mut self, robot: u32, shown_s: f64) -> PageFrame {
+        self.place_ghost();
         let physics = self.environment.physics();
         let mut rewards = Vec::new();
         self.environment.task().reward_terms(&mut |_, term| rewards.push(term as f32));
@@ -229,7 +235,37 @@ impl Player {
             ..poses::body_pose(&self.environment, self.command())
         };
         let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
-        PageFrame { robot, shown_s, rewards_e4, velocity, ..frame_of(&pose) }
+        let (ghost_base_m, ghost) = self.ghost_bodies();
+        PageFrame { robot, shown_s, rewards_e4, velocity, ghost_base_m, ghost, ..frame_of(&pose) }
+    }
+
+    /// Adds the robot that shows the motion, if the task has one.
+    fn add_ghost(&mut self) -> anyhow::Result<()> {
+        if self.saved.config.env.chosen_task() == ChosenTask::Motion {
+            let physics = self.environment.physics();
+            self.ghost = Some(Physics::new(physics.model().clone(), *physics.settings())?);
+        }
+        Ok(())
+    }
+
+    /// Puts the robot that shows the motion where that is.
+    fn place_ghost(&mut self) {
+        let task: &dyn Any = self.environment.task();
+        if let (Some(ghost), Some(task)) = (&mut self.ghost, task.downcast_ref::<MotionTask>()) {
+            let rest = vec![0.0; ghost.model().velocity_size()];
+            ghost.set_state(task.wanted_position(), &rest);
+        }
+    }
+
+    /// Returns base and bodies of the robot that shows the motion, as [`PageFrame`] has them; empty without one.
+    fn ghost_bodies(&self) -> (Vec<f32>, Bytes) {
+        let Some(ghost) = &self.ghost else { return Default::default() };
+        let numbers = poses::bodies(ghost);
+        let bodies = numbers.as_chunks::<BODY_NUMBERS>().0;
+        let base_m = bodies.first().map_or([0.0; 3], |[x, y, z, ..]| [*x, *y, *z]);
+        let mut packed = Vec::new();
+        bodies.iter().for_each(|body| append_body(&mut packed, base_m, body));
+        (base_m.to_vec(), packed.into())
     }
 
     fn begin_episode(&mut self) {
@@ -267,6 +303,8 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
         velocity: pose.base_velocity.clone(),
         distance_m: pose.distance_m,
         centre_of_mass_m: pose.centre_of_mass_m.clone(),
+        ghost_base_m: Vec::new(),
+        ghost: Bytes::new(),
     }
 }
 

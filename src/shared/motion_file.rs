@@ -22,7 +22,7 @@ pub struct MotionArgs {
     pub motion: Vec<PathBuf>,
     /// Frames per second of motion files that do not say so, as CSV.
     #[arg(long, value_name = "HZ", requires = "motion")]
-    pub fps: Option<f64>,
+    pub motion_fps: Option<f64>,
 }
 
 impl MotionArgs {
@@ -68,7 +68,7 @@ impl MotionArgs {
         }
         let mut motions = Vec::new();
         for path in &files {
-            let MotionFile { motion, notices, .. } = read_one(path, self.fps, &mut physics)?;
+            let MotionFile { motion, notices, .. } = read_one(path, self.motion_fps, &mut physics)?;
             notices.iter().for_each(|notice| tracing::warn!("{}: {notice}", path.display()));
             motions.push(motion);
         }

@@ -9,6 +9,7 @@ mod export_velocity;
 mod film;
 mod lifecycle;
 mod model;
+mod motion;
 mod runs;
 mod slips;
 mod states;

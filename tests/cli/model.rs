@@ -45,14 +45,14 @@ fn every_command_names_the_file_of_an_unusable_model() {
     write(folder.path(), "bent.xml", &bent);
     write(folder.path(), "notes.xml", "remember the milk");
     write(folder.path(), "empty.xml", "");
-    write(folder.path(), "huge.xml", &" ".repeat((4 << 20) + 1));
+    write(folder.path(), "huge.xml", &" ".repeat((16 << 20) + 1));
     write(folder.path(), "parts.xml", "<mujoco><include file=\"legs.xml\"/></mujoco>");
     let cases: [(&str, &[&str]); 6] = [
         ("missing.xml", &["missing.xml", "cannot be read", "No such file"]),
         ("bent.xml", &["bent.xml", "`chest`", "condim", "1, 3, 4 or 6"]),
         ("notes.xml", &["notes.xml", "not valid MJCF"]),
         ("empty.xml", &["empty.xml", "empty"]),
-        ("huge.xml", &["huge.xml", "4194305 bytes", "4194304"]),
+        ("huge.xml", &["huge.xml", "16777217 bytes", "16777216"]),
         ("parts.xml", &["parts.xml", "legs.xml", "No such file"]),
     ];
     for (file, parts) in cases {

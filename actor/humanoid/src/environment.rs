@@ -236,7 +236,8 @@ impl Environment {
     pub fn begin_step(&mut self, action: &[f32]) {
         assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
         self.action.copy_from_slice(action);
-        for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.action_ranges)) {
+        self.task.change_action(&mut self.action);
+        for (control, (action, [low, high])) in self.controls.iter_mut().zip(self.action.iter().zip(&self.action_ranges)) {
             *control = action.clamp(*low, *high);
         }
         let push_mps = self.randomiser.due_push();

@@ -1,6 +1,6 @@
 //! Exports a policy as an ONNX model, for other programs.
 
-use treadmill_proto::onnx::{Layer, OnnxMotion, OnnxPolicy, Ports};
+use treadmill_proto::onnx::{Layer, OnnxMotion, OnnxOffset, OnnxPolicy, Ports};
 
 use crate::exported::{ActionFacts, ExportedPolicy};
 
@@ -13,6 +13,8 @@ pub struct ForController {
     pub ports: Ports,
     /// Motion that the policy imitates.
     pub motion: Option<OnnxMotion>,
+    /// What is added to the actions.
+    pub offset: Option<OnnxOffset>,
     /// Metadata entries beside `treadmill.*`.
     pub metadata: Vec<(String, String)>,
 }
@@ -49,6 +51,7 @@ pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> V
         low: &low,
         high: &high,
         ports: controller.map_or(Ports::ANY_BATCH, |of| of.ports),
+        offset: controller.and_then(|of| of.offset.as_ref()),
         motion: controller.and_then(|of| of.motion.as_ref()),
         doc,
         metadata: metadata.chain(controller.iter().flat_map(|of| of.metadata.clone())).collect(),

@@ -14,7 +14,7 @@ use treadmill_humanoid::{
     },
 };
 use treadmill_policy::onnx::ForController;
-use treadmill_proto::onnx::Ports;
+use treadmill_proto::onnx::{OnnxOffset, Ports};
 
 use super::imitated::Imitated;
 
@@ -161,7 +161,13 @@ impl Contract {
         // What mjlab's players of motions ask for.
         let ports = if self.imitated.is_some() { Ports::UNITREE } else { ports };
         let motion = self.imitated.as_ref().map(|imitated| imitated.tables.clone());
-        Ok(ForController { action_limit: Some(ACTION_MAX as f32), ports, motion, metadata })
+        let is_residual = self.imitated.is_some() && self.config.motion.residual_action;
+        let of_joints = |number: fn(&Joint) -> f64| self.joints.iter().map(|joint| number(joint) as f32).collect();
+        let offset = is_residual.then(|| OnnxOffset {
+            centre: of_joints(|joint| joint.default_rad),
+            scale: of_joints(|joint| joint.action_scale_rad),
+        });
+        Ok(ForController { action_limit: Some(ACTION_MAX as f32), ports, motion, offset, metadata })
     }
 
     /// Returns the whole contract.

@@ -80,6 +80,7 @@ impl Imitated {
             "row": "what the control step is to reach",
             "rows": self.tables.rows,
             "motions": self.motions,
+            "residual_action": config.residual_action,
             "future_steps": config.future_steps,
             "anchor_height_max_m": config.anchor_height_max_m,
             "anchor_tilt_max": config.anchor_tilt_max,

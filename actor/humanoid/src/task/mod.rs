@@ -35,7 +35,7 @@ const SOFT_LIMIT_SHARE: f64 = 0.9;
 pub struct Step<'a> {
     /// Robot after the step.
     pub physics: &'a Physics,
-    /// Action as given, one control per motor.
+    /// Action as given, or as [`Task::change_action`] changed it; one control per motor.
     pub action: &'a [f32],
     /// Centre of mass of the whole robot before the step (m, world frame).
     pub centre_before_m: Point3<f64>,
@@ -122,6 +122,10 @@ pub trait Task: Any + Send + Sync {
 
     /// Begins an episode with the robot in its first state.
     fn begin(&mut self, seed: u64, physics: &Physics);
+
+    /// Changes the action of the next control step, one control per motor, before it is clamped and reaches the motors.
+    /// [`Step::action`] is the changed one.
+    fn change_action(&self, _action: &mut [f32]) {}
 
     /// Returns reward and end of a control step.
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation;

@@ -139,7 +139,7 @@ fn what_cannot_be_composed_is_refused_by_name() {
     }
     let huge = changed(PARENT, attach, &nested);
     let message = folder(&huge, HAND).read("robot.xml").expect_err("too large");
-    assert!(message.contains("4194304"), "{message}");
+    assert!(message.contains("16777216"), "{message}");
 }
 
 #[test]

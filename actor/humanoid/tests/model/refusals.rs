@@ -56,7 +56,7 @@ fn a_text_must_be_one_whole_mjcf_document() {
     assert!(problem("<mujoco><worldbody>").contains("not valid MJCF"));
     assert!(problem("<robot name='r2'/>").contains("<mujoco>"));
     assert!(problem("<mujoco/>").contains("free joint"));
-    assert!(problem(&format!("<mujoco>{}", " ".repeat(4 << 20))).contains("4194304"));
+    assert!(problem(&format!("<mujoco>{}", " ".repeat(16 << 20))).contains("16777216"));
     assert!(problem(&"<body>".repeat(100_000)).contains("nested"));
     Text(ARM).assert_refused(&[
         ("<worldbody>", "<worldbody><include file='legs.xml'/>", &["include", "legs.xml", "pasted"]),

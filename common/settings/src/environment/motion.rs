@@ -66,6 +66,9 @@ motion! {
         /// Whether the policy knows where it is: it then sees the error of the anchor's position and the velocity of the
         /// base.
         state_estimation: bool = true, "true or false" => |_| true;
+        /// Whether an action of 0 asks the servos for the angles of the motion, and not for those of the default pose. The
+        /// exported ONNX adds them itself, so that its players need not know.
+        residual_action: bool = true, "true or false" => |_| true;
         /// Number of further control steps whose reference angles the policy sees.
         future_steps: u32 = 0, "0 to 16" => |v| *v <= 16;
         /// Share of the episodes that begin anywhere in the motions, in training. The others begin up to

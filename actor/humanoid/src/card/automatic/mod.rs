@@ -59,6 +59,14 @@ pub struct Proposal {
 }
 
 impl Proposal {
+    /// Returns the card for a robot that moves all its hinges, and all of whose parts may meet: for motions.
+    #[must_use]
+    pub fn moving_all(mut self) -> Self {
+        let is_kept = |line: &&str| !line.starts_with("held = true") && !line.starts_with("self_contacts = ");
+        self.card = self.card.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        self
+    }
+
     /// Finds the card of a model. With two legs, the policy moves these, and all other hinges are held.
     ///
     /// # Errors

@@ -191,6 +191,14 @@ impl Task for MotionTask {
         self.rewarded = [0.0; MOTION_TERMS];
     }
 
+    fn change_action(&self, action: &mut [f32]) {
+        if self.config.residual_action {
+            for (target, (hinge, default, _)) in action.iter_mut().zip(&self.motors) {
+                *target += (self.reference.positions[self.step][7 + hinge] - default) as f32;
+            }
+        }
+    }
+
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
         self.episode_steps = self.episode_steps.saturating_add(1);
         self.actions_before.copy_from_slice(&self.actions);
