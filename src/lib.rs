@@ -22,8 +22,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
     commands::{
-        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, motion, robot, router, runs,
-        status, train, watch,
+        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, motion, robot, router,
+        runs, status, train, watch,
     },
     launch::{exit_code, familiar_flags, log, output, processor, restart},
 };

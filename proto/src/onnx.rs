@@ -242,7 +242,10 @@ fn whole(name: &str, i: i64) -> wire::AttributeProto {
 
 /// Returns an input or output of shape `[batch, width]`.
 fn port(name: &str, batch: Option<i64>, width: usize) -> wire::ValueInfoProto {
-    value(name, &[batch.map_or_else(|| Side::DimParam("batch".to_string()), Side::DimValue), Side::DimValue(width as i64)])
+    value(
+        name,
+        &[batch.map_or_else(|| Side::DimParam("batch".to_string()), Side::DimValue), Side::DimValue(width as i64)],
+    )
 }
 
 /// Returns an input or output of a shape.

@@ -34,9 +34,9 @@ pub struct MotionCommandArgs {
     /// Motion file: CSV or npz.
     #[arg(value_parser = existing_file)]
     file: PathBuf,
-    /// MJCF or URDF file, or card, of the robot that moves.
+    /// MJCF or URDF file, or card, of the robot that moves; by default the built-in humanoid.
     #[arg(long, value_name = "FILE")]
-    model: PathBuf,
+    model: Option<PathBuf>,
     /// Flags about that file.
     #[command(flatten)]
     files: ModelFileArgs,
@@ -67,7 +67,7 @@ pub fn run(args: &MotionCommandArgs) -> anyhow::Result<()> {
     }
     let mut config = Config::default();
     config.env.robot = args.card.clone().unwrap_or_default();
-    let text = model::completed(&config, Some(&args.model), &args.files, "")?;
+    let text = model::completed(&config, args.model.as_deref(), &args.files, "")?;
     let mut physics = physics_of(&text)?;
     let found = read_one(&args.file, args.fps, &mut physics)?;
     let report = MotionReport::of(&found.motion, &mut physics);
@@ -95,7 +95,8 @@ pub fn run(args: &MotionCommandArgs) -> anyhow::Result<()> {
             "fastest": {"hinge": report.fastest.0, "rate_radps": report.fastest.1, "time_s": report.fastest.2},
             "beyond": beyond,
             "jumps": jumps,
-        }).to_string());
+        })
+        .to_string());
     } else {
         print(args, &found, &report);
     }
@@ -112,7 +113,7 @@ pub fn run(args: &MotionCommandArgs) -> anyhow::Result<()> {
 /// Writes a film of the motion and returns a line that describes it.
 fn film(args: &MotionCommandArgs, path: &Path, motion: &Motion, physics: &mut Physics) -> anyhow::Result<String> {
     // Nothing but a picture needs them.
-    let meshes = visual_meshes(&args.model, &args.files.files()).unwrap_or_default();
+    let meshes = args.model.as_ref().and_then(|file| visual_meshes(file, &args.files.files()).ok()).unwrap_or_default();
     let look = Look::of(physics.model(), &meshes);
     let step_s = 1.0 / SAVED_HZ;
     let filming = FilmArgs::of_file(path).begin(step_s, || look)?;
@@ -130,22 +131,28 @@ fn print(args: &MotionCommandArgs, found: &MotionFile, report: &MotionReport) {
     say(&format!("motion `{}`", args.file.display()));
     line("format", found.format);
     line("order", &found.order);
-    line(
-        "frames",
-        &format!("{} at {} per second: {:.2} s", report.frames, report.rate_hz, report.duration_s),
-    );
+    line("frames", &format!("{} at {} per second: {:.2} s", report.frames, report.rate_hz, report.duration_s));
     line("hinges", &format!("{}: {}", found.motion.hinges.len(), found.motion.hinges.join(" ")));
-    line("base", &format!("{:.3} to {:.3} m high, path {:.2} m, at most {:.2} m/s", report.base_m[0], report.base_m[1],
-        report.path_m, report.speed_max_mps));
+    line(
+        "base",
+        &format!(
+            "{:.3} to {:.3} m high, path {:.2} m, at most {:.2} m/s",
+            report.base_m[0], report.base_m[1], report.path_m, report.speed_max_mps
+        ),
+    );
     match report.lowest_m {
         Some([low_m, high_m]) => {
-            line("ground", &format!(
-                "lowest part {low_m:.3} to {high_m:.3} m above it; touches in {:.0} % of the frames",
-                100.0 * report.touching_share
-            ));
-            let leaves = report.contacts_s.iter().map(|(time_s, touches)| {
-                format!("{} at {time_s:.2} s", if *touches { "touches" } else { "leaves" })
-            });
+            line(
+                "ground",
+                &format!(
+                    "lowest part {low_m:.3} to {high_m:.3} m above it; touches in {:.0} % of the frames",
+                    100.0 * report.touching_share
+                ),
+            );
+            let leaves = report
+                .contacts_s
+                .iter()
+                .map(|(time_s, touches)| format!("{} at {time_s:.2} s", if *touches { "touches" } else { "leaves" }));
             let shown: Vec<String> = leaves.take(LINES_MAX).collect();
             let more = report.contacts_s.len().saturating_sub(LINES_MAX);
             let rest = if more > 0 { format!(", and {more} more") } else { String::new() };
@@ -156,7 +163,10 @@ fn print(args: &MotionCommandArgs, found: &MotionFile, report: &MotionReport) {
     let (name, rate_radps, time_s) = &report.fastest;
     line("fastest", &format!("`{name}`, {rate_radps:.1} rad/s at {time_s:.2} s"));
     for (name, rad, share) in report.beyond.iter().take(LINES_MAX) {
-        line("beyond", &format!("`{name}` is up to {rad:.3} rad beyond its range, in {:.0} % of the frames", 100.0 * share));
+        line(
+            "beyond",
+            &format!("`{name}` is up to {rad:.3} rad beyond its range, in {:.0} % of the frames", 100.0 * share),
+        );
     }
     for (time_s, what) in report.jumps.iter().take(LINES_MAX) {
         line("jump", &format!("at {time_s:.2} s: {what}"));

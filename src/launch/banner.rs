@@ -249,8 +249,16 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
         let best = best_m.map(|m| format!("; best {m:.1} m")).unwrap_or_default();
         let (moved, best) = match summary.history.tracking_errors {
             Some([velocity, yaw]) => (format!("errors of {velocity:.2} m/s and {yaw:.2} rad/s"), String::new()),
-            None if summary.history.has_commands => ("no evaluation yet".to_string(), String::new()),
-            None => (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), best),
+            None => match (summary.history.figures, summary.history.imitated) {
+                (Figures::Imitation, Some([done, error_m])) => (
+                    format!("{:.0} % of the motion, links off by {:.1} cm", 100.0 * done, 100.0 * error_m),
+                    String::new(),
+                ),
+                (Figures::Tracking | Figures::Imitation, _) => ("no evaluation yet".to_string(), String::new()),
+                (Figures::Distance, _) => {
+                    (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), best)
+                }
+            },
         };
         say(&format!(
             "reached: return {:.0}, {moved}, {end:.0} steps until the end of an episode{best}",

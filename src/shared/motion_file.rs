@@ -39,7 +39,9 @@ impl MotionArgs {
         // Checks the length that a model may have.
         Model::from_mjcf(&whole).map_err(|why| {
             let (mib, seconds) = (whole.len() >> 20, motions.iter().map(Motion::duration_s).sum::<f64>());
-            Usage(format!("--motion: {seconds:.0} s of motions with the model take {mib} MiB: {why}; give fewer of them"))
+            Usage(format!(
+                "--motion: {seconds:.0} s of motions with the model take {mib} MiB: {why}; give fewer of them"
+            ))
         })?;
         Ok(whole)
     }
@@ -102,7 +104,8 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Usage> {
     }
     let unreadable = |why: std::io::Error| Usage(format!("--motion {}: {why}", path.display()));
     let entries = path.read_dir().map_err(unreadable)?;
-    let mut found = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
+    let mut found =
+        entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
     found.retain(|file| file.extension().is_some_and(|ending| ending == "csv" || ending == "npz"));
     found.sort();
     match found.is_empty() {

@@ -1,43 +1,20 @@
 //! Motions: their files, and runs that imitate them.
 
-use std::{fmt::Write, fs, path::Path};
+use std::{fs, path::Path};
 
 use rten_tensor::{NdTensor, prelude::*};
-use treadmill_rl::humanoid::Model;
 
 use crate::support::*;
 
-const CARD: &str = "model = 'robot.xml'\nfeet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
 /// Steps and networks of a training that only has to work.
-const SMALL: [&str; 10] = [
-    "train", "--preset", "smoke", "--task", "motion", "--model", "robot.toml", "--actors", "1", "--steps=512",
-];
+const SMALL: [&str; 10] =
+    ["train", "--preset", "smoke", "--task", "motion", "--model", "robot.toml", "--actors", "1", "--steps=512"];
 const TIME: [&str; 4] = ["--set", "env.control_step_s=0.02", "--set", "env.substeps=5"];
-
-/// Writes a motion of two seconds, at 50 lines per second: the robot bends its knees by `depth_rad` and stands up again.
-fn write_motion(folder: &Path, name: &str, depth_rad: f64) {
-    let model = Model::from_mjcf(ROBOT_XML).unwrap();
-    let mut text = String::new();
-    for step in 0..=100 {
-        let bent = depth_rad * (0.5 - 0.5 * (f64::from(step) / 100.0 * std::f64::consts::TAU).cos());
-        let angle = |name: &str| match name {
-            _ if name.contains("knee") => bent,
-            _ if name.contains("hip_pitch") => -bent / 2.0,
-            _ => 0.0,
-        };
-        let height_m = model.nominal_position()[2] - 0.3 * (1.0 - (bent / 2.0).cos());
-        write!(text, "0,0,{height_m},0,0,0,1").unwrap();
-        model.hinges.iter().for_each(|hinge| write!(text, ",{}", angle(&hinge.name)).unwrap());
-        text.push('\n');
-    }
-    fs::write(folder.join(name), text).unwrap();
-}
 
 /// Writes the robot, and a motion.
 fn prepare(folder: &Path) {
-    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
-    fs::write(folder.join("robot.toml"), CARD).unwrap();
-    write_motion(folder, "squat.csv", 0.6);
+    motion::write_imitated_robot(folder);
+    motion::write_motion(folder, "squat.csv", 0.6);
 }
 
 #[test]
@@ -49,7 +26,9 @@ fn a_file_is_described_filmed_and_written_in_another_form() {
     assert_refused(&run(folder, &motion), 2, &["squat.csv", "its rate is not in the file", "--fps 30"]);
     let files = ["--fps", "50", "--save", "squat.npz", "--film", "squat.gif"];
     let text = stdout(&done(folder, &[&motion[..], &files].concat()));
-    for part in ["CSV with quaternions x, y, z, w", "101 at 50 per second: 2.00 s", "29: ", "wrote squat.npz", "squat.gif"] {
+    for part in
+        ["CSV with quaternions x, y, z, w", "101 at 50 per second: 2.00 s", "29: ", "wrote squat.npz", "squat.gif"]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(fs::metadata(folder.join("squat.gif")).unwrap().len() > 10_000);
@@ -70,7 +49,7 @@ fn a_robot_imitates_a_motion_and_keeps_it() {
     let (folder, run) = folders();
     let folder = folder.path();
     prepare(folder);
-    write_motion(folder, "deep.csv", 0.9);
+    motion::write_motion(folder, "deep.csv", 0.9);
     let to = ["--run-dir", run.to_str().unwrap()];
     let given = ["--motion", "squat.csv", "--fps", "50"];
     let small = [&SMALL[..], &TIME, &to].concat();
@@ -98,7 +77,11 @@ fn a_robot_imitates_a_motion_and_keeps_it() {
     assert_ne!(last_json(&done(folder, &deep))["body_error_m"], played["body_error_m"]);
 
     done(folder, &["export", "run", "--onnx", "squat.onnx"]);
-    assert_refused(&self::run(folder, &["export", "run", "--deploy", "d.yaml"]), 2, &["--deploy", "trained for `treadmill/motion`"]);
+    assert_refused(
+        &self::run(folder, &["export", "run", "--deploy", "d.yaml"]),
+        2,
+        &["--deploy", "trained for `treadmill/motion`"],
+    );
     check_tables(folder);
 }
 
@@ -125,7 +108,10 @@ fn check_tables(folder: &Path) {
     for row in [0, 30, 99, 500] {
         let expected = &rows[(row + 1).min(100)][7..];
         let [_, found] = play(row as f32, &[0.0; 29]);
-        assert!(found.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-5), "{row}: {found:?} {expected:?}");
+        assert!(
+            found.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-5),
+            "{row}: {found:?} {expected:?}"
+        );
     }
     assert!(play(0.0, &[f32::NAN; 29])[0].iter().all(|action| action.is_nan()));
 }

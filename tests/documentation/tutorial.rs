@@ -1,7 +1,7 @@
 //! The tutorial: its commands run as printed, with shorter trainings. Its parts in Python, on several hosts and in the
 //! browser have tests of their own.
 
-use std::path::Path;
+use std::{path::Path, process::Command};
 
 use crate::support::*;
 
@@ -11,6 +11,26 @@ fn commands(page: &str) -> Vec<String> {
     let alone = blocks.filter(|block| !block.contains("ip netns"));
     let lines = alone.flat_map(str::lines).filter(|line| line.starts_with("treadmill "));
     lines.filter(|line| !line.contains("treadmill watch")).map(str::to_string).collect()
+}
+
+#[test]
+fn the_first_commands_of_the_guide_to_motions_work_as_printed() {
+    let Some(python) = python_with("math") else { return };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (folder, _) = folders();
+    std::os::unix::fs::symlink(root.join("python"), folder.path().join("python")).unwrap();
+    let page = page("guide/motion");
+    let first = page.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
+    let programs = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().display();
+    let script =
+        first.replace("--steps 4000000", "--steps 10000").replace("python3", &python.get_program().to_string_lossy());
+    let path = format!("{programs}:{}", std::env::var("PATH").unwrap());
+    let done = Command::new("sh").args(["-ec", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
+    assert!(done.status.success(), "{}\n{}", stdout(&done), stderr(&done));
+    assert!(stdout(&done).contains("of the motion in the mean"), "{}", stdout(&done));
+    for made in ["wave.gif", "imitated.gif", "runs/wave/learning_curve.png"] {
+        assert!(folder.path().join(made).metadata().is_ok_and(|file| file.len() > 1000), "{made}");
+    }
 }
 
 #[test]

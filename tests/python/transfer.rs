@@ -47,3 +47,35 @@ fn a_walking_policy_plays_in_mujoco_by_its_contract() {
     .unwrap();
     assert_refused(&play(&[]), 2, &["has the bodies", "trunk", "expects torso"]);
 }
+
+#[test]
+fn a_policy_that_imitates_a_motion_plays_in_mujoco_by_its_contract() {
+    let Some(mut python) = python_with("mujoco, numpy, onnxruntime") else { return };
+    let (folder, run) = folders();
+    let folder = folder.path();
+    motion::write_imitated_robot(folder);
+    motion::write_motion(folder, "squat.csv", 0.6);
+    let train =
+        ["train", "--preset", "smoke", "--task", "motion", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
+    let time = ["env.control_step_s=0.02", "env.substeps=5", "motion.future_steps=2"];
+    let motion = ["--motion", "squat.csv", "--fps", "50", "--run-dir", run.to_str().unwrap()];
+    done(folder, &[&train[..], &set(&time), &motion].concat());
+    done(folder, &["export", "run", "--onnx", "squat.onnx"]);
+    done(folder, &["eval", "run", "--episodes", "2", "--trace", "trace.jsonl"]);
+    let folder_of_package = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python");
+    python.env("PYTHONPATH", folder_of_package).current_dir(folder);
+    python.args(["-m", "treadmill_transfer", "squat.onnx", "--model", "robot.xml", "--json"]);
+    let play = |more: &[&str]| {
+        let mut command = std::process::Command::new(python.get_program());
+        command.envs(python.get_envs().filter_map(|(name, value)| Some((name, value?)))).current_dir(folder);
+        command.args(python.get_args()).args(more).output().unwrap()
+    };
+    // The same observations and actions in the same states.
+    let compared = play(&["--trace", "trace.jsonl"]);
+    let result = last_json(&compared);
+    assert!(compared.status.success() && result["steps"].as_u64().unwrap() > 10, "{result} {}", stderr(&compared));
+    let played = last_json(&play(&["--episodes", "2", "--no-pushes"]));
+    assert_eq!(played["episodes"], 2);
+    assert!((0.0..=1.0).contains(&played["done_share"].as_f64().unwrap()), "{played}");
+    assert_refused(&play(&["--commands", "c.csv"]), 2, &["--commands", "leave it out"]);
+}

@@ -112,6 +112,11 @@ fn forged_reports_are_ignored() {
             falls: 0,
             velocity_error_mps: None,
             yaw_rate_error_radps: None,
+            anchor_error_m: None,
+            body_error_m: None,
+            body_error_rad: None,
+            hinge_error_rad: None,
+            done_share: None,
         };
         let timeout = std::time::Duration::from_secs(10);
         let answer = ask_for_evaluation(&bus, &report.run, "liar", Some(&report), timeout).await;

@@ -2,8 +2,8 @@
 
 pub use treadmill_settings::{
     ChosenTask, ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind,
-    MOTION_TERMS, MotionConfig, MotionRewards,
-    REWARD_TERMS, RandomisationConfig, RewardFunctions, RewardsConfig, Section, VelocityConfig,
+    MOTION_TERMS, MotionConfig, MotionRewards, REWARD_TERMS, RandomisationConfig, RewardFunctions, RewardsConfig,
+    Section, VelocityConfig,
     environment::{HEADING_GAIN, is_task_name},
 };
 

@@ -237,7 +237,9 @@ impl Environment {
         assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
         self.action.copy_from_slice(action);
         self.task.change_action(&mut self.action);
-        for (control, (action, [low, high])) in self.controls.iter_mut().zip(self.action.iter().zip(&self.action_ranges)) {
+        for (control, (action, [low, high])) in
+            self.controls.iter_mut().zip(self.action.iter().zip(&self.action_ranges))
+        {
             *control = action.clamp(*low, *high);
         }
         let push_mps = self.randomiser.due_push();

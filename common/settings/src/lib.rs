@@ -12,8 +12,8 @@ mod section;
 mod value;
 
 pub use environment::{
-    ChosenTask, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind, MOTION_TERMS, MotionConfig,
-    MotionRewards, REWARD_TERMS, RandomisationConfig, RewardFunctions, RewardsConfig, VelocityConfig,
+    ChosenTask, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind, MOTION_TERMS,
+    MotionConfig, MotionRewards, REWARD_TERMS, RandomisationConfig, RewardFunctions, RewardsConfig, VelocityConfig,
 };
 pub use error::ConfigError;
 pub use section::{KeyDoc, Section, SectionDoc};

@@ -11,6 +11,8 @@ const RETURN_TAG: &str = "rollout/ep_rew_mean";
 const DISTANCE_TAG: &str = "rollout/distance_mean_m";
 const EVALUATED_TAG: &str = "eval/distance_mean_m";
 const VELOCITY_ERROR_TAG: &str = "eval/velocity_error";
+const BODY_ERROR_TAG: &str = "eval/body_error";
+const DONE_TAG: &str = "eval/done_share";
 const YAW_RATE_ERROR_TAG: &str = "eval/yaw_rate_error";
 
 /// Return and distance after one update.
@@ -34,10 +36,24 @@ pub struct History {
     pub distance_best_m: Option<f64>,
     /// Greatest mean distance of an evaluation, in metres.
     pub evaluated_best_m: Option<f64>,
-    /// Whether the task has commands, so that errors and falls count instead of distances.
-    pub has_commands: bool,
+    /// What counts beside the return.
+    pub figures: Figures,
     /// Errors of the velocity (m/s) and the yaw rate (rad/s) in the last evaluation, of a task with commands.
     pub tracking_errors: Option<[f64; 2]>,
+    /// Share of a motion that was done, and error of the links (m), in the last evaluation of a motion task.
+    pub imitated: Option<[f64; 2]>,
+}
+
+/// What counts beside the return.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Figures {
+    /// Distance.
+    #[default]
+    Distance,
+    /// Errors of commanded velocities.
+    Tracking,
+    /// How much of a motion is done, and how well.
+    Imitation,
 }
 
 impl History {
@@ -49,7 +65,7 @@ impl History {
             Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(history),
             Err(why) => return Err(why),
         };
-        let (mut return_mean, mut velocity_error) = (None, None);
+        let (mut return_mean, mut velocity_error, mut body_error) = (None, None, None);
         for_each_metric(file, |metric, _| {
             match &metric.tag[..] {
                 RETURN_TAG => return_mean = Some(metric.value),
@@ -58,6 +74,8 @@ impl History {
                 EVALUATED_TAG => history.add(None, None, Some(metric.value)),
                 VELOCITY_ERROR_TAG => velocity_error = Some(metric.value),
                 YAW_RATE_ERROR_TAG => history.note_tracking(velocity_error.take(), Some(metric.value)),
+                BODY_ERROR_TAG => body_error = Some(metric.value),
+                DONE_TAG => history.note_imitation(Some(metric.value), body_error.take()),
                 _ => {}
             }
             Ok(())
@@ -87,6 +105,11 @@ impl History {
     pub fn note_tracking(&mut self, velocity_error_mps: Option<f64>, yaw_rate_error_radps: Option<f64>) {
         let errors = velocity_error_mps.zip(yaw_rate_error_radps).map(<[f64; 2]>::from);
         self.tracking_errors = errors.or(self.tracking_errors);
+    }
+
+    /// Notes how a motion was done in an evaluation that has just ended, if the task has motions.
+    pub fn note_imitation(&mut self, done_share: Option<f64>, body_error_m: Option<f64>) {
+        self.imitated = done_share.zip(body_error_m).map(<[f64; 2]>::from).or(self.imitated);
     }
 
     /// Iterates over the points from first to last, including the last update's.

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use treadmill_runtime::{machine, numbers::thousands};
 
 use super::table::{important, render_line, render_table};
-use super::{History, Scalars, history::Point, sparkline::sparkline};
+use super::{Figures, History, Scalars, history::Point, sparkline::sparkline};
 
 /// Interval between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
@@ -224,9 +224,12 @@ fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars, histor
     let parts = [
         known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
-        match history.has_commands {
-            true => obeyed(history),
-            false => known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
+        match history.figures {
+            Figures::Tracking => obeyed(history),
+            Figures::Imitation => imitated(history),
+            Figures::Distance => {
+                known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1)))
+            }
         },
         known("rollout/fall_fraction").map(|share| format!("falls {} %", rounded(100.0 * share, 0))),
         known("rollout/used_share").map(|value| format!("used {} %", rounded(100.0 * value, 0))),
@@ -243,8 +246,14 @@ fn obeyed(history: &History) -> Option<String> {
     Some(format!("errors {} m/s and {} rad/s", rounded(velocity, 2), rounded(yaw_rate, 2)))
 }
 
+/// Returns how a motion was done in the last evaluation; `None` before the first one.
+fn imitated(history: &History) -> Option<String> {
+    let [done, error_m] = history.imitated?;
+    Some(format!("{} % of the motion done, links off by {} cm", rounded(100.0 * done, 0), rounded(100.0 * error_m, 1)))
+}
+
 /// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends. Where the task
-/// has commands, the errors of the last evaluation stand for the distance.
+/// has commands or motions, the errors of the last evaluation stand for the distance.
 fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let arrow = if is_unicode { '→' } else { '>' };
     let curve = |of: fn(&Point) -> f64, best: Option<f64>, decimals, unit: &str| {
@@ -255,9 +264,10 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
         Some(format!("{first} {arrow} {now}{unit}{best} {}", sparkline(&values, SPARKLINE_WIDTH, is_unicode)))
     };
     let returns = curve(|point| point.return_mean, None, 0, "")?;
-    let moved = match history.has_commands {
-        true => obeyed(history),
-        false => Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?)),
+    let moved = match history.figures {
+        Figures::Tracking => obeyed(history),
+        Figures::Imitation => imitated(history),
+        Figures::Distance => Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?)),
     };
     Some(std::iter::once(format!("return {returns}")).chain(moved).collect::<Vec<_>>().join(", "))
 }

@@ -185,6 +185,7 @@ impl Reporting {
         self.history.add(return_mean, distance_m, evaluation.as_ref().map(|result| result.report.distance_mean_m));
         if let Some(EvaluationResult { report, .. }) = evaluation {
             self.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
+            self.history.note_imitation(report.done_share, report.body_error_m);
         }
         if !is_due {
             return self.background.check();

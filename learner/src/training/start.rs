@@ -8,7 +8,7 @@ use super::{Learning, Reporting, Serving, Trainer, TrainingError, TrainingOption
 use crate::{
     checkpoint::TrainingState,
     leadership::Leadership,
-    metrics::{History, MetricsReport},
+    metrics::{Figures, History, MetricsReport},
     waiting::{PendingWrites, Retry},
 };
 
@@ -35,7 +35,11 @@ impl Trainer {
         let report = MetricsReport::open(bus, &options.folder, &state, &config, &options.report)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let mut history = History::read(&options.folder.metrics())?;
-        history.has_commands = config.env.chosen_task() == ChosenTask::Velocity;
+        history.figures = match config.env.chosen_task() {
+            ChosenTask::Velocity => Figures::Tracking,
+            ChosenTask::Motion => Figures::Imitation,
+            _ => Figures::Distance,
+        };
         let (serving, stats) = Serving::open(bus, &state, &grown, options, storage, pending)?;
         let reporting = Reporting::new(report, history, stats, &state, options, retry)?;
         let (is_paused, is_stopped) = (false, false);

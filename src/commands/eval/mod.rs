@@ -146,8 +146,8 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             ));
         }
         if prints_rows && let Some(played) = &step.ended {
-            is_read = (step.episode > 1 || say_to_reader(&headings(columns)))
-                && say_to_reader(&row(step.episode, played));
+            is_read =
+                (step.episode > 1 || say_to_reader(&headings(columns))) && say_to_reader(&row(step.episode, played));
         }
         // Files are completed although the table has no reader.
         let is_wanted = is_traced && (is_read || args.trace.is_some() || filming.is_some());
@@ -367,7 +367,11 @@ fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluati
 fn print_imitation(imitation: &Imitation, episodes: usize) {
     let (finished, done) = (imitation.finished(), 100.0 * imitation.done_share());
     say(&format!("finished      {finished} of {episodes}; {done:.1} % of the motion in the mean"));
-    say(&format!("anchor        {:.1} cm, {:.1}°", 100.0 * imitation.anchor_error_m(), imitation.anchor_error_rad().to_degrees()));
+    say(&format!(
+        "anchor        {:.1} cm, {:.1}°",
+        100.0 * imitation.anchor_error_m(),
+        imitation.anchor_error_rad().to_degrees()
+    ));
     let (bodies_cm, turned) = (100.0 * imitation.body_error_m(), imitation.body_error_rad().to_degrees());
     say(&format!("bodies        {bodies_cm:.1} cm, {turned:.1}°, with the anchors above each other"));
     say(&format!("hinges        {:.3} rad", imitation.hinge_error_rad()));
@@ -430,7 +434,8 @@ fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, co
         fields["body_error_rad"] = json!(imitation.body_error_rad());
         fields["hinge_error_rad"] = json!(imitation.hinge_error_rad());
         let worst = imitation.worst_second();
-        fields["worst_second"] = json!(worst.map(|(error_m, from_s)| json!({"body_error_m": error_m, "from_s": from_s})));
+        fields["worst_second"] =
+            json!(worst.map(|(error_m, from_s)| json!({"body_error_m": error_m, "from_s": from_s})));
     }
     if let Some(tracking) = evaluation.tracking() {
         fields["velocity_error_mps"] = json!(tracking.velocity_error_mps());

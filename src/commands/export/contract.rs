@@ -278,7 +278,8 @@ fn terms(environment: &Environment) -> anyhow::Result<Vec<Term>> {
     let unknown = |name: &str| format!("the policy observes `{name}`, which is no term of the task");
     if environment.config().env.chosen_task() == ChosenTask::Motion {
         let of_motion = |term: &&ObservationTerm| {
-            let row = MOTION_OBSERVATION.iter().find(|row| row.name == term.name).with_context(|| unknown(&term.name))?;
+            let row =
+                MOTION_OBSERVATION.iter().find(|row| row.name == term.name).with_context(|| unknown(&term.name))?;
             let MotionTerm { name, unit, frame, .. } = *row;
             Ok(Term { name, mjlab_name: name, unit, frame, deploy_params: String::new(), size: term.range.len() })
         };

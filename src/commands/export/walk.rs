@@ -43,7 +43,13 @@ pub(super) fn for_player(environment: &Environment) -> Option<ForController> {
     let task = environment.config().env.chosen_task();
     let is_gymnasium = matches!(task, ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4);
     let metadata = vec![("treadmill.contract".to_owned(), contract(environment).to_string())];
-    is_gymnasium.then_some(ForController { action_limit: None, ports: Ports::ANY_BATCH, motion: None, offset: None, metadata })
+    is_gymnasium.then_some(ForController {
+        action_limit: None,
+        ports: Ports::ANY_BATCH,
+        motion: None,
+        offset: None,
+        metadata,
+    })
 }
 
 fn contract(environment: &Environment) -> Value {

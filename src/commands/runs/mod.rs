@@ -121,6 +121,8 @@ fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
         "training_return": record.training_return,
         "fall_fraction": record.fall_fraction,
         "velocity_error_mps": record.velocity_error_mps,
+        "done_share": record.done_share,
+        "body_error_m": record.body_error_m,
         "config_differences": changes,
     })
     .to_string()
@@ -140,7 +142,10 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         .map(|record| {
             // Without an evaluation, the distance in training, in brackets because exploration shortens it.
             let tracked = record.velocity_error_mps.map(|error| format!("± {error:.2} m/s"));
-            let evaluated = tracked.or_else(|| record.best_eval_distance_m.map(|metres| format!("{metres:.1} m")));
+            let imitated = record.done_share.zip(record.body_error_m);
+            let imitated = imitated.map(|(done, error_m)| format!("{:.0} % ± {:.1} cm", 100.0 * done, 100.0 * error_m));
+            let evaluated =
+                tracked.or(imitated).or_else(|| record.best_eval_distance_m.map(|metres| format!("{metres:.1} m")));
             let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1} m)")));
             [
                 shorten(&record.name, NAME_CHARS_MAX),
@@ -181,7 +186,10 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     }
     say("");
     say("reached: mean distance of the best evaluation, in brackets that of the last training episodes;");
-    say("with commands (±) the mean velocity error of the last evaluation.");
+    say(
+        "with commands (±) the mean velocity error of the last evaluation; with motions the share that is done, and the error",
+    );
+    say("of the robot's links.");
     say("return, falls: of the last training episodes.");
 }
 

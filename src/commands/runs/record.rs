@@ -37,6 +37,9 @@ pub(crate) struct Record {
     /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it
     /// is that of robots that soon fall.
     pub(crate) velocity_error_mps: Option<f64>,
+    /// Mean share of a motion that is done in the last evaluation of a motion task, and error of its links (m).
+    pub(crate) done_share: Option<f64>,
+    pub(crate) body_error_m: Option<f64>,
     /// Whether a process trains it now, and else whether the last one was killed.
     pub(crate) is_running: bool,
     pub(crate) was_killed: bool,
@@ -120,6 +123,8 @@ impl Record {
             "rollout/distance_best_m" => self.training_best_m = Some(value),
             "rollout/fall_fraction" => self.fall_fraction = Some(value),
             "eval/velocity_error" => self.velocity_error_mps = Some(value),
+            "eval/body_error" => self.body_error_m = Some(value),
+            "eval/done_share" => self.done_share = Some(value),
             "eval/distance_mean_m" if self.best_eval_distance_m.is_none_or(|best| value > best) => {
                 self.best_eval_distance_m = Some(value);
                 self.best_eval_at = None;
@@ -156,13 +161,17 @@ impl Record {
     }
 
     /// Returns numbers by which runs are sorted, the best first: those with commands by their velocity error, and after
-    /// them those that mostly fall, whose errors say little; then the others by the best known distance.
+    /// them those that mostly fall, whose errors say little; then those that imitate motions by how much of them they do;
+    /// then the others by the best known distance.
     pub(crate) fn order(&self) -> (u8, f64) {
         if self.has_commands() {
             let falls = self.fall_fraction.is_some_and(|share| share > FALLS_MOSTLY);
             return (u8::from(falls), self.velocity_error_mps.unwrap_or(f64::INFINITY));
         }
-        (2, -self.best_m().unwrap_or(f64::NEG_INFINITY))
+        if let Some(done) = self.done_share {
+            return (2, -done);
+        }
+        (3, -self.best_m().unwrap_or(f64::NEG_INFINITY))
     }
 
     /// Returns the best distance (m), as the progress of training has it: of an evaluation, or else in training.
@@ -203,7 +212,7 @@ mod tests {
             record.add(tag, value);
         }
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(160)));
-        assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (2, -9.5)));
+        assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (3, -9.5)));
         record.config.insert("env.task".into(), "\"velocity\"".into());
         assert_eq!(record.order(), (0, 0.3));
         record.add("rollout/fall_fraction", 0.9);

@@ -13,9 +13,9 @@ use super::pose::{Angles, Pose};
 use super::vocabulary::{self, is_inert};
 use super::xml::{elements, sections};
 use crate::card::RobotCard;
-use crate::motion::{self, Motion};
 use crate::error::ModelError;
 use crate::model::Solver;
+use crate::motion::{self, Motion};
 
 /// Everything in a text that motion depends on.
 pub(super) struct Tree {

@@ -37,12 +37,19 @@ pub fn read_motion_file(path: &Path, rate_hz: Option<f64>, physics: &mut Physics
     let in_file = |why: MotionError| MotionError(format!("motion file `{}`: {why}", path.display()));
     let unreadable = |why: std::io::Error| in_file(MotionError(format!("it cannot be read: {why}")));
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(MOTION_FILE_BYTES_MAX + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    File::open(path)
+        .and_then(|file| file.take(MOTION_FILE_BYTES_MAX + 1).read_to_end(&mut bytes))
+        .map_err(unreadable)?;
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().replace(char::is_control, " "));
     read(&bytes, &name, rate_hz, physics).map_err(in_file)
 }
 
-pub(super) fn read(bytes: &[u8], name: &str, rate_hz: Option<f64>, physics: &mut Physics) -> Result<MotionFile, MotionError> {
+pub(super) fn read(
+    bytes: &[u8],
+    name: &str,
+    rate_hz: Option<f64>,
+    physics: &mut Physics,
+) -> Result<MotionFile, MotionError> {
     let fail = |problem: &str| Err(MotionError(problem.to_owned()));
     if bytes.len() as u64 > MOTION_FILE_BYTES_MAX {
         return fail("it is longer than 256 MiB; cut it into parts");
@@ -67,16 +74,18 @@ pub(super) fn read(bytes: &[u8], name: &str, rate_hz: Option<f64>, physics: &mut
             "it is a pickle, which may run code when it is read; GMR writes such files, and its script \
              batch_gmr_pkl_to_csv.py converts them to CSV",
         ),
-        [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => {
-            fail("it is a single array of NumPy; a motion is an archive (npz) with fps, joint_pos, body_pos_w and body_quat_w")
-        }
+        [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => fail(
+            "it is a single array of NumPy; a motion is an archive (npz) with fps, joint_pos, body_pos_w and body_quat_w",
+        ),
         _ => {
             let Ok(text) = std::str::from_utf8(bytes) else {
                 return fail("it is neither a CSV nor an archive of NumPy (npz)");
             };
             let text = text.trim_start_matches('\u{feff}');
             if text.trim_start().starts_with("HIERARCHY") {
-                return fail("it is a BVH of a human; retarget it to the robot first, for example by GMR (github.com/YanjieZe/GMR)");
+                return fail(
+                    "it is a BVH of a human; retarget it to the robot first, for example by GMR (github.com/YanjieZe/GMR)",
+                );
             }
             let numbers = csv::read(text, hinges)?;
             let Some(rate_hz) = rate_hz else {

@@ -88,7 +88,10 @@ impl Motion {
             }
             quaternion.iter_mut().for_each(|part| *part = (f64::from(*part) / length) as f32);
             if frame[..3].iter().any(|place| place.abs() > DISTANCE_MAX_M) {
-                return fail(format!("{}: the root is farther than {DISTANCE_MAX_M} m from the origin; use metres", at()));
+                return fail(format!(
+                    "{}: the root is farther than {DISTANCE_MAX_M} m from the origin; use metres",
+                    at()
+                ));
             }
             if let Some(hinge) = frame[ROOT..].iter().position(|angle| angle.abs() > ANGLE_MAX_RAD) {
                 let (angle, name) = (frame[ROOT + hinge], &hinges[hinge]);

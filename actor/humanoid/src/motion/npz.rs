@@ -63,15 +63,16 @@ pub(super) fn read(bytes: &[u8], hinges: usize) -> Result<Archive, MotionError> 
         let mut content = Vec::new();
         // What the archive says of its size may be wrong.
         file.take(left + 1).read_to_end(&mut content).map_err(|why| damaged(&why))?;
-        left = left.checked_sub(content.len() as u64).ok_or_else(|| {
-            MotionError(format!("its arrays are longer than {} MiB", MOTION_FILE_BYTES_MAX >> 20))
-        })?;
+        left = left
+            .checked_sub(content.len() as u64)
+            .ok_or_else(|| MotionError(format!("its arrays are longer than {} MiB", MOTION_FILE_BYTES_MAX >> 20)))?;
         Ok(Some(content))
     };
     let mut numbers = |key: &str| bytes_of(key)?.map(|bytes| array(key, &bytes)).transpose();
     let [rate, joints, rates, places, turns] =
         ["fps", "joint_pos", "joint_vel", "body_pos_w", "body_quat_w"].map(&mut numbers);
-    let missing = |key: &str| MotionError(format!("it lacks the array `{key}`; a motion has fps, joint_pos and body_pos_w"));
+    let missing =
+        |key: &str| MotionError(format!("it lacks the array `{key}`; a motion has fps, joint_pos and body_pos_w"));
     let rate = rate?.ok_or_else(|| missing("fps"))?;
     let [rate_hz] = rate.numbers[..] else { return fail("its array `fps` must be one number".to_owned()) };
     let joints = joints?.ok_or_else(|| missing("joint_pos"))?;
@@ -138,9 +139,11 @@ fn open<'a>(key: &str, bytes: &'a [u8]) -> Result<NpyFile<&'a [u8]>, MotionError
         Err(why) => return fail(format!("cannot be read: {why}")),
     };
     if file.header().uses_pickled_array() {
-        return fail("holds pickled Python objects, which may run code when they are read, so it is not read; save it as \
+        return fail(
+            "holds pickled Python objects, which may run code when they are read, so it is not read; save it as \
                      numbers or text: numpy.savez with .astype(float) or .astype(str)"
-            .to_owned());
+                .to_owned(),
+        );
     }
     if file.order() != Order::C {
         return fail("is in Fortran order; save numpy.ascontiguousarray of it".to_owned());
@@ -225,7 +228,8 @@ pub fn write_npz(motion: &Motion, physics: &mut Physics, step_s: f64) -> Result<
     let failed = |why: &dyn std::fmt::Display| MotionError(format!("the archive cannot be written: {why}"));
     let rate = [(1.0 / step_s) as f32];
     let all = std::iter::once(("fps", &[1][..], &rate[..]));
-    let all = all.chain(keys.into_iter().zip(shapes).zip(&arrays).map(|((key, shape), array)| (key, shape, &array[..])));
+    let all =
+        all.chain(keys.into_iter().zip(shapes).zip(&arrays).map(|((key, shape), array)| (key, shape, &array[..])));
     for (key, shape, array) in all {
         let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
         zip.start_file(format!("{key}.npy"), options).map_err(|why| failed(&why))?;

@@ -77,7 +77,8 @@ impl Unordered {
             return Err(MotionError(format!("it has {} hinges, the robot has {}", self.hinges, robot.len())));
         }
         let depth_first: Vec<usize> = (0..robot.len()).collect();
-        let orders = [("depth first, as in MuJoCo", depth_first), ("breadth first, as in Isaac Lab", breadth_first(&model))];
+        let orders =
+            [("depth first, as in MuJoCo", depth_first), ("breadth first, as in Isaac Lab", breadth_first(&model))];
         let Some(poses) = &self.poses else {
             let motion = self.named(name, rate_hz, &robot)?;
             return Ok(Ordered { motion, order: "taken as that of the robot: the file says nothing of it".to_owned() });
@@ -93,7 +94,8 @@ impl Unordered {
         if found.iter().all(|(_, _, apart_m)| apart_m.is_none()) {
             let (label, motion, _) = found.swap_remove(0);
             let (bodies, links) = (poses.count, model.links.len());
-            let order = format!("taken as {label}: it has {bodies} bodies, the robot {links}, so they cannot be compared");
+            let order =
+                format!("taken as {label}: it has {bodies} bodies, the robot {links}, so they cannot be compared");
             return Ok(Ordered { motion, order });
         }
         let distance = |apart_m: &Option<f64>| apart_m.unwrap_or(f64::INFINITY);

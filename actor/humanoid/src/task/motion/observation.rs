@@ -54,7 +54,13 @@ enum Entries {
     Ends,
 }
 
-const fn term(name: &'static str, unit: &'static str, frame: &'static str, entries: Entries, write: Write) -> MotionTerm {
+const fn term(
+    name: &'static str,
+    unit: &'static str,
+    frame: &'static str,
+    entries: Entries,
+    write: Write,
+) -> MotionTerm {
     MotionTerm { name, unit, frame, is_privileged: false, entries, is_observed: |_| true, write }
 }
 
@@ -219,10 +225,8 @@ impl Layout {
         let Compared { links, ends, .. } = compared;
         let image = |link: &usize| links.iter().position(|other| *other == robot.links[*link]);
         let images: Vec<usize> = links.iter().map(image).collect::<Option<_>>()?;
-        let end_images: Vec<usize> = ends
-            .iter()
-            .map(|end| ends.iter().position(|other| *other == images[*end]))
-            .collect::<Option<_>>()?;
+        let end_images: Vec<usize> =
+            ends.iter().map(|end| ends.iter().position(|other| *other == images[*end])).collect::<Option<_>>()?;
         let mut mirrored = SignedPermutation::new();
         for (row, term) in self.rows.iter().zip(&self.terms) {
             let start = term.range.start;

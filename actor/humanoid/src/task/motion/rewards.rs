@@ -138,7 +138,9 @@ impl MotionRewards for MotionStep<'_> {
     fn self_collisions(&self) -> f64 {
         let is_hard = |force: &Vector3<f64>| force.norm() > SELF_CONTACT_N;
         let mut contacts = self.physics.contact_points();
-        f64::from(u8::from(contacts.any(|contact| contact.links.iter().all(Option::is_some) && is_hard(&contact.force_n))))
+        f64::from(u8::from(
+            contacts.any(|contact| contact.links.iter().all(Option::is_some) && is_hard(&contact.force_n)),
+        ))
     }
 }
 
