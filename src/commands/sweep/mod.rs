@@ -205,7 +205,8 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
         return Err(Usage("--resume-or-start needs the folder of the sweep: pass --run-dir DIR".to_string()).into());
     }
     let launcher = Launcher { command: RunCommand::Train, tasks };
-    let source = begin::sources(launcher, &args.new, &args.any, &args.actors.changes()?)?.source;
+    let changes = args.actors.changes()?;
+    let source = begin::sources(launcher, &args.new, &args.any, &changes)?.source;
     let config = source.build()?;
     prepared::check_external(RunCommand::Train, &config, &args.any)?;
     let read = |path: &PathBuf| -> anyhow::Result<(String, String)> {
@@ -230,7 +231,7 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
     let search = plan.search()?;
     plan.goal = search.goal.clone().unwrap_or_else(|| Goal::of(&config, search.interval_steps().is_some())).to_string();
     plan.propose(&search);
-    check_trials(&plan, &source)?;
+    check_trials(&plan, &source, &changes)?;
     let folder = SweepFolder::create(args.new.run_dir.as_deref())?;
     folder.save(&plan)?;
     Ok((folder, plan))
@@ -244,11 +245,12 @@ fn trials_at_once() -> usize {
     machine::cores().min(by_memory).max(1)
 }
 
-/// Checks the configuration of every trial.
-fn check_trials(plan: &Plan, source: &ConfigSource) -> Result<(), Usage> {
+/// Checks the configuration of every trial. `changes` are keys of flags, which come after those of the search.
+fn check_trials(plan: &Plan, source: &ConfigSource, changes: &[(&str, toml::Value)]) -> Result<(), Usage> {
     let wrong = |keys: &search::Setting| -> Option<String> {
         let mut source = source.clone();
-        let set = keys.iter().try_for_each(|(key, value)| source.value(key, given_value(value)));
+        let searched = keys.iter().map(|(key, value)| (key.as_str(), given_value(value)));
+        let set = searched.chain(changes.iter().cloned()).try_for_each(|(key, value)| source.value(key, value));
         let config: Config = match set.and_then(|()| source.build()) {
             Ok(config) => config,
             Err(why) => return Some(why.to_string()),

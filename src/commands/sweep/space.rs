@@ -76,7 +76,9 @@ impl KeyRange {
             other => return refuse(format!("has the range `{other}`; allowed: {KINDS}")),
         };
         let mut why: Vec<String> = range.samples().iter().filter_map(|value| objection(key, value)).collect();
-        why.dedup();
+        if !matches!(range, Self::Choices(_)) {
+            why.truncate(1);
+        }
         if why.is_empty() { Ok(range) } else { Err(why) }
     }
 
@@ -85,7 +87,7 @@ impl KeyRange {
         match self {
             // The middle would be a whole number too often to show that a key has only those.
             Self::Uniform([low, high], _) | Self::LogUniform([low, high], _) => {
-                [*low, *high, low + (high - low) * 0.382].map(Value::Float).to_vec()
+                [*high, *low, low + (high - low) * 0.382].map(Value::Float).to_vec()
             }
             Self::Integers(ends) => ends.map(Value::Integer).to_vec(),
             Self::Choices(choices) => choices.clone(),
