@@ -34,8 +34,8 @@ pub struct SweptCurve {
 /// Steps in millions, with the mean, the least and the greatest value of several curves.
 type Band = Vec<(f64, [f64; 3])>;
 
-/// Draws the curves of a metric and of the return, with the best setting, which is the first, in colour. The image replaces an
-/// older one atomically.
+/// Draws the curves of a metric and of the return, with the best setting, which is the first, in colour. The image replaces
+/// an older one atomically.
 ///
 /// # Errors
 /// If the image cannot be drawn or written. Logs that cannot be read are left out.
@@ -116,7 +116,7 @@ fn band(lines: &[&[CurvePoint]]) -> Band {
     let lines: Vec<&[CurvePoint]> = lines.iter().copied().filter(|line| !line.is_empty()).collect();
     let first = lines.iter().map(|line| line[0].0).fold(f64::INFINITY, f64::min);
     let last = lines.iter().map(|line| line[line.len() - 1].0).fold(f64::NEG_INFINITY, f64::max);
-    if !(first <= last) {
+    if lines.is_empty() {
         return Vec::new();
     }
     let steps = (0..BAND_POINTS).map(|point| first + (last - first) * point as f64 / (BAND_POINTS - 1) as f64);
@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(points[0].len(), 15);
         assert!(points[0].is_sorted_by(|a, b| a.0 < b.0), "{points:?}");
         let png = folder.path().join("sweep.png");
-        let mut draw = |curves: &[SweptCurve], tag: &str| {
+        let draw = |curves: &[SweptCurve], tag: &str| {
             draw_sweep("runs/S", curves, tag, &png).unwrap();
             std::fs::read(&png).unwrap()
         };

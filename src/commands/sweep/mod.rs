@@ -4,12 +4,13 @@
 //! - What is tried: [`search`] (the file), [`space`] (values of a key), [`goal`] (what trials are compared by).
 //! - [`plan`]: trials and what has become of them, as a file.
 //! - [`trials`]: runs them; [`population`]: lets the worst fork the best.
-//! - [`report`]: lines, tables, CSV and picture.
+//! - [`results`]: what was reached; [`report`]: lines, tables, CSV and picture.
 
 mod goal;
 mod plan;
 mod population;
 mod report;
+mod results;
 mod search;
 mod space;
 mod trials;
@@ -25,9 +26,9 @@ use treadmill_runtime::{machine, shutdown::Shutdown, words::quoted};
 use self::{
     goal::Goal,
     plan::{Plan, SweepFolder},
-    report::Results,
-    search::Search,
-    trials::{Ended, Fleet},
+    results::SweepResults,
+    search::SweepSearch,
+    trials::{Ended, TrialRunner},
 };
 use crate::{
     commands::check::machine::{ACTOR_BYTES, LEARNER_BYTES},
@@ -52,7 +53,7 @@ const OWN_FLAGS: [&str; 7] = ["resume", "resume_or_start", "run_dir", "seed", "s
 /// Flags of `sweep`.
 #[derive(Args)]
 pub struct SweepArgs {
-    /// Search file (TOML): strategy, goal, and keys with ranges (see docs/guide/sweep.md); without it, seeds are compared.
+    /// SweepSearch file (TOML): strategy, goal, and keys with ranges (see docs/guide/sweep.md); without it, seeds are compared.
     #[arg(value_name = "FILE", value_parser = existing_file)]
     file: Option<PathBuf>,
     /// Seeds of each setting, from --seed on; 3 without a search file.
@@ -104,7 +105,16 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             }
             SweepFolder::open(sweep)?
         }
-        (None, Some(root)) => SweepFolder::open(&root.display().to_string())?,
+        (None, Some(root)) => {
+            let (folder, plan) = SweepFolder::open(&root.display().to_string())?;
+            if plan.flags != flags {
+                let (own, root) = (plan.flags.join(" "), root.display());
+                return Err(
+                    Usage(format!("`{root}` holds a sweep with the flags `{own}`; a sweep keeps its flags")).into()
+                );
+            }
+            (folder, plan)
+        }
         (None, None) => begin_sweep(args, flags, tasks)?,
     };
     if let Some(parallel) = args.parallel {
@@ -112,6 +122,7 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     }
     let search = plan.search()?;
     let goal = Goal::read(&plan.goal).map_err(Usage)?;
+    let mut results = SweepResults::of_ended(folder.root(), &plan, &goal, search.interval_steps().is_some());
     let shown = report::shorter(folder.root()).display().to_string();
     let (count, parallel) = (plan.trials.len(), plan.parallel);
     say(&format!("{shown}: {count} trials, {parallel} at once; their output is in {shown}/trial-N.log"));
@@ -119,7 +130,7 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         let shutdown = Shutdown::default();
         let first = "stopping: trials save after this update; press Ctrl-C again to stop at once";
         signals::listen(shutdown.clone(), first)?;
-        train(&folder, &mut plan, &search, &goal, &shutdown).await
+        train(&folder, &mut plan, &search, &mut results, &shutdown).await
     })?;
     let go_on = format!("treadmill sweep --resume {}", quoted(&shown));
     match ended {
@@ -133,9 +144,9 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             "the disk of `{shown}` is full, so no further trial begins; free some space, then go on with `{go_on}`"
         ),
     }
-    let result = report::print_end(&folder, &plan, &search, &goal);
+    report::print_end(&plan, &results);
     if args.any.json {
-        say(&result.to_string());
+        say(&report::as_json(&plan, &results).to_string());
     }
     let failed = plan.failed();
     if failed == plan.trials.len() {
@@ -148,32 +159,34 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
 async fn train(
     folder: &SweepFolder,
     plan: &mut Plan,
-    search: &Search,
-    goal: &Goal,
+    search: &SweepSearch,
+    results: &mut SweepResults,
     shutdown: &Shutdown,
 ) -> anyhow::Result<Ended> {
-    let mut fleet = Fleet { folder, shutdown, parallel: plan.parallel, pause_at: None };
-    let record = |plan: &mut Plan, index: usize, code: i32| {
+    let mut runner = TrialRunner { folder, shutdown, parallel: plan.parallel, pause_at: None };
+    let goal = results.goal.clone();
+    let mut record = |plan: &mut Plan, index: usize, code: i32| {
         plan.trials[index].exit = Some(code);
         folder.save(plan)?;
-        report::write_tables(folder, plan, search, goal)?;
-        report::print_trial(folder, plan, index, code, goal);
+        results.read(plan, index);
+        report::write_tables(folder, plan, search, results)?;
+        report::print_trial(folder, plan, results, index);
         Ok(())
     };
     let Some(interval_steps) = search.interval_steps() else {
         let unfinished = plan.unfinished();
-        return fleet.run(plan, &unfinished, record).await;
+        return runner.run(plan, &unfinished, record).await;
     };
     loop {
         let boundary = population::boundary(plan.intervals + 1, interval_steps, plan.steps);
         let is_last = boundary >= plan.steps;
-        fleet.pause_at = Some(boundary);
+        runner.pause_at = Some(boundary);
         let living = plan.living().into_iter();
         let behind = |index: &usize| {
             plan.trials[*index].exit.is_none() && (is_last || trials::reached(&folder.trial(*index)) < boundary)
         };
         let behind: Vec<usize> = living.filter(behind).collect();
-        let ended = fleet
+        let ended = runner
             .run(plan, &behind, |plan, index, code| {
                 population::forget_state(folder, index);
                 // A member that is well goes on after the interval.
@@ -185,13 +198,11 @@ async fn train(
         }
         let next = population::boundary(plan.intervals + 2, interval_steps, plan.steps);
         let before = plan.trials.len();
-        population::evolve(folder, plan, search, goal, next)?;
+        let replaced = population::evolve(folder, plan, search, &goal, next)?;
         plan.intervals += 1;
         folder.save(plan)?;
-        report::write_tables(folder, plan, search, goal)?;
-        for index in before..plan.trials.len() {
-            report::print_fork(plan, index);
-        }
+        (before..plan.trials.len()).for_each(|index| report::print_fork(plan, index));
+        replaced.into_iter().try_for_each(|index| record(plan, index, plan.trials[index].exit.unwrap_or_default()))?;
     }
 }
 
@@ -299,7 +310,9 @@ fn print_schedule(sweep: &str) -> anyhow::Result<()> {
     let root = plan::find(sweep)?;
     let plan = plan::read(&root)?;
     let (search, goal) = (plan.search()?, Goal::read(&plan.goal).map_err(Usage)?);
-    match Results::read(&root, &plan, &search, &goal).best {
+    let mut results = SweepResults::of_ended(&root, &plan, &goal, search.interval_steps().is_some());
+    plan.unfinished().into_iter().for_each(|index| results.read(&plan, index));
+    match results.best(&plan) {
         Some(best) => report::print_schedule(&root, &plan, best),
         None => anyhow::bail!("no trial of `{sweep}` has reached anything yet; wait for its first results"),
     }

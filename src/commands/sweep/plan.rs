@@ -9,7 +9,7 @@ use anyhow::Context;
 use serde::{Deserialize, Serialize};
 use treadmill_runtime::{atomic_file, words::quoted};
 
-use super::search::{Search, Setting};
+use super::search::{Setting, SweepSearch};
 use crate::launch::exit_code::Usage;
 
 const FILE: &str = "sweep.json";
@@ -29,7 +29,7 @@ pub(crate) struct Trial {
 }
 
 /// Plan of a sweep.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Plan {
     /// Folder in which the sweep was started: paths in flags begin there.
     pub(crate) started_in: PathBuf,
@@ -59,15 +59,15 @@ impl Plan {
     ///
     /// # Errors
     /// All entries of the file that are wrong.
-    pub(crate) fn search(&self) -> Result<Search, Usage> {
+    pub(crate) fn search(&self) -> Result<SweepSearch, Usage> {
         match &self.file {
-            Some((name, text)) => Search::read(text, name, self.settings, self.seeds),
-            None => Search::of_seeds(self.seeds.unwrap_or_default()),
+            Some((name, text)) => SweepSearch::read(text, name, self.settings, self.seeds),
+            None => SweepSearch::of_seeds(self.seeds.unwrap_or_default()),
         }
     }
 
     /// Adds the trials of a search.
-    pub(crate) fn propose(&mut self, search: &Search) {
+    pub(crate) fn propose(&mut self, search: &SweepSearch) {
         for (setting, keys) in search.settings(self.seed).into_iter().enumerate() {
             for number in 0..search.seeds {
                 // The seeds are the same for each setting, so that chance favours none; members of a population differ.

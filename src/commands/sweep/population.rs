@@ -9,7 +9,7 @@ use treadmill_runtime::{run_folder::RunFolder, seeds};
 use super::{
     goal::Goal,
     plan::{Plan, SweepFolder, Trial},
-    search::{Search, TRIALS_MAX},
+    search::{SweepSearch, TRIALS_MAX},
     trials::{forked, reached},
 };
 
@@ -21,18 +21,18 @@ pub(crate) fn boundary(interval: u64, interval_steps: u64, steps: u64) -> u64 {
     interval.saturating_mul(interval_steps).min(steps)
 }
 
-/// Lets the worst members fork the best ones: adds trials to the plan, with the states that they begin from. The same results
-/// give the same forks.
+/// Lets the worst members fork the best ones: adds trials to the plan, with the states that they begin from. Returns the
+/// trials that have ended by that. The same results give the same forks.
 ///
 /// # Errors
 /// If a state cannot be kept.
 pub(crate) fn evolve(
     folder: &SweepFolder,
     plan: &mut Plan,
-    search: &Search,
+    search: &SweepSearch,
     goal: &Goal,
     next_boundary: u64,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Vec<usize>> {
     let mut ranked = plan.living();
     let order = |index: &usize| {
         let has_failed = plan.trials[*index].exit.is_some_and(|code| code != 0);
@@ -49,6 +49,7 @@ pub(crate) fn evolve(
         plan.trials[**index].exit.is_none_or(|code| code == 0) && (1..next_boundary).contains(&steps)
     };
     let best: Vec<usize> = ranked[..count].iter().filter(can_fork).copied().collect();
+    let mut replaced = Vec::new();
     for worst in ranked[ranked.len() - count..].iter().copied() {
         if best.is_empty() || plan.trials.len() >= TRIALS_MAX {
             break;
@@ -64,11 +65,13 @@ pub(crate) fn evolve(
         keep_state(folder, parent, index)?;
         let steps = reached(&folder.trial(parent));
         let (seed, setting) = (plan.seed.saturating_add(index as u64), plan.trials[worst].setting);
-        // A result, also if it failed before.
-        plan.trials[worst].exit.get_or_insert(0);
+        if plan.trials[worst].exit.is_none() {
+            plan.trials[worst].exit = Some(0);
+            replaced.push(worst);
+        }
         plan.trials.push(Trial { seed, setting, keys, exit: None, parent: Some((parent, steps)) });
     }
-    Ok(())
+    Ok(replaced)
 }
 
 /// Keeps the latest checkpoint of a trial for the one that forks it, because the first one goes on meanwhile.

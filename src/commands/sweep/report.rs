@@ -14,9 +14,9 @@ use treadmill_runtime::{
 };
 
 use super::{
-    goal::Goal,
     plan::{self, Plan, SweepFolder, Trial},
-    search::Search,
+    results::{SettingResult, SweepResults},
+    search::SweepSearch,
     trials::{flags, last_error},
 };
 use crate::{
@@ -27,38 +27,23 @@ use crate::{
 /// Most columns of a row's keys.
 const KEYS_CHARS_MAX: usize = 60;
 
-/// Trial that has begun, with its results.
-pub(crate) struct Outcome {
-    index: usize,
-    record: Record,
-    /// What it reached.
-    pub(crate) reached: Option<f64>,
-}
-
-impl Outcome {
-    /// Reads the results of a trial, if it has begun.
-    pub(crate) fn read(root: &Path, index: usize, goal: &Goal) -> Option<Self> {
-        let run = plan::trial(root, index);
-        let record = Record::read(&run).ok()?;
-        Some(Self { index, record, reached: goal.reached(&run) })
-    }
-}
-
 /// Prints the line of a trial that has ended.
-pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, index: usize, code: i32, goal: &Goal) {
-    let Trial { seed, keys, .. } = &plan.trials[index];
-    let outcome = Outcome::read(folder.root(), index, goal);
-    let (steps, seconds) = outcome.as_ref().map_or((0, 0.0), |found| (found.record.env_steps, found.record.wall_s));
-    let reached = value(outcome.and_then(|found| found.reached));
+pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, results: &SweepResults, index: usize) {
+    let Trial { seed, keys, exit, .. } = &plan.trials[index];
+    let found = results.of(index);
+    let (steps, seconds) = found.map_or((0, 0.0), |found| (found.record.env_steps, found.record.wall_s));
     let mut line = format!("trial-{} of {}: seed {seed}", index + 1, plan.trials.len());
     if !keys.is_empty() {
         line += &format!(", {}", keys_text(keys));
     }
-    line += &format!(": {} steps in {}, {goal}: {reached}", thousands(steps), duration(seconds));
-    if code != 0 {
-        let why = last_error(&folder.log(index)).unwrap_or_else(|| folder.log(index).display().to_string());
-        line += &format!(", failed with exit code {code}: {why}");
-    }
+    line += &format!(": {} steps in {}", thousands(steps), duration(seconds));
+    line += &match exit {
+        Some(0) | None => format!(", {}: {}", results.goal, value(found.and_then(|found| found.reached))),
+        Some(code) => {
+            let why = last_error(&folder.log(index)).unwrap_or_else(|| folder.log(index).display().to_string());
+            format!(", failed with exit code {code}: {why}")
+        }
+    };
     say(&shown(&line));
 }
 
@@ -66,38 +51,43 @@ pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, index: usize, code:
 ///
 /// # Errors
 /// If the folder cannot be written.
-pub(crate) fn write_tables(folder: &SweepFolder, plan: &Plan, search: &Search, goal: &Goal) -> anyhow::Result<()> {
+pub(crate) fn write_tables(
+    folder: &SweepFolder,
+    plan: &Plan,
+    search: &SweepSearch,
+    results: &SweepResults,
+) -> anyhow::Result<()> {
     let names: Vec<&str> = search.keys.iter().map(|(key, _)| key.as_str()).collect();
     let begin = "trial,setting,seed,exit,env_steps,wall_s,goal,best_distance_m,velocity_error_mps,return,fall_fraction";
     let mut text = csv_row([begin].into_iter().chain(names.iter().copied()).map(str::to_string));
     let mut lineage = csv_row(["trial,parent,env_steps,seed"].into_iter().chain(names).map(str::to_string));
-    for (index, trial) in plan.trials.iter().enumerate() {
-        let found = Outcome::read(folder.root(), index, goal);
-        let number = |of: fn(&Record) -> Option<f64>| {
-            found.as_ref().and_then(|found| of(&found.record)).map_or_else(String::new, |number| number.to_string())
-        };
-        let results = [
-            (index + 1).to_string(),
-            trial.setting.to_string(),
-            trial.seed.to_string(),
-            trial.exit.map_or_else(String::new, |code| code.to_string()),
-            found.as_ref().map_or_else(String::new, |found| found.record.env_steps.to_string()),
-            number(|record| Some(record.wall_s)),
-            found.as_ref().and_then(|found| found.reached).map_or_else(String::new, |number| number.to_string()),
-            number(Record::best_m),
-            number(|record| record.velocity_error_mps),
-            number(|record| record.training_return),
-            number(|record| record.fall_fraction),
+    for (index, Trial { seed, setting, keys, exit, parent }) in plan.trials.iter().enumerate() {
+        let found = results.of(index);
+        let record = found.map(|found| &found.record);
+        let numbers = [
+            record.map(|record| record.env_steps as f64),
+            record.map(|record| record.wall_s),
+            found.and_then(|found| found.reached),
+            record.and_then(Record::best_m),
+            record.and_then(|record| record.velocity_error_mps),
+            record.and_then(|record| record.training_return),
+            record.and_then(|record| record.fall_fraction),
         ];
-        let values = || trial.keys.iter().map(|(_, value)| csv_cell(value));
-        text += &csv_row(results.into_iter().chain(values()));
+        let trial = (index + 1).to_string();
+        let begin = [trial.clone(), setting.to_string(), seed.to_string(), shown_or_empty(*exit)];
+        let numbers = numbers.map(shown_or_empty);
+        let values = || keys.iter().map(|(_, value)| csv_cell(value));
+        text += &csv_row(begin.into_iter().chain(numbers).chain(values()));
         let (parent, steps) =
-            trial.parent.map_or((String::new(), 0), |(parent, steps)| ((parent + 1).to_string(), steps));
-        let begin = [(index + 1).to_string(), parent, steps.to_string(), trial.seed.to_string()];
-        lineage += &csv_row(begin.into_iter().chain(values()));
+            (shown_or_empty(parent.map(|(parent, _)| parent + 1)), parent.map_or(0, |(_, steps)| steps));
+        lineage += &csv_row([trial, parent, steps.to_string(), seed.to_string()].into_iter().chain(values()));
     }
     folder.write("sweep.csv", &text)?;
     if search.interval_steps().is_some() { folder.write("lineage.csv", &lineage) } else { Ok(()) }
+}
+
+fn shown_or_empty<T: ToString>(number: Option<T>) -> String {
+    number.map(|number| number.to_string()).unwrap_or_default()
 }
 
 fn csv_row(cells: impl Iterator<Item = String>) -> String {
@@ -108,123 +98,60 @@ fn csv_cell(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_string() }
 }
 
-/// Setting with the results of its trials.
-struct Summary {
-    setting: usize,
-    trials: Vec<usize>,
-    reached: Vec<f64>,
+/// Prints the tables of a sweep and draws its picture.
+pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
+    let (settings, root) = (results.settings(plan), &results.root);
+    draw(plan, results, &settings);
+    let Some(best) = results.best(plan) else { return };
+    print_table(&results.counted(plan).into_iter().map(|(_, found)| &found.record).collect::<Vec<_>>(), None);
+    say(&format!("\nGoal: {}", results.goal));
+    say("  setting  trials        mean   deviation      lowest     highest  keys");
+    for found in &settings {
+        let SettingResult { setting, trials, reached } = found;
+        let end = |of: fn(f64, f64) -> f64| reached.iter().copied().reduce(of);
+        let cells = [found.mean(), found.deviation(), end(f64::min), end(f64::max)];
+        let cells: String = cells.iter().map(|cell| format!("{:>10}  ", value(*cell))).collect();
+        let (count, keys) = (format!("{}/{}", reached.len(), trials.len()), keys_text(&plan.trials[trials[0]].keys));
+        say(&shown(format!("{setting:>9}  {count:>6}  {cells}{keys}").trim_end()));
+    }
+    say("trials: those that reached the goal, of all; deviation: standard deviation over their seeds.");
+    say(&format!("\nBest: {}", shorter(&plan::trial(root, best)).display()));
+    if plan.trials[best].parent.is_some() {
+        print_schedule(root, plan, best);
+    }
+    say(&format!("Written: {0}/sweep.csv, {0}/sweep.png", shorter(root).display()));
 }
 
-impl Summary {
-    fn mean(&self) -> Option<f64> {
-        (!self.reached.is_empty()).then(|| self.reached.iter().sum::<f64>() / self.reached.len() as f64)
-    }
-
-    /// Returns the standard deviation of the sample.
-    fn deviation(&self) -> Option<f64> {
-        let mean = self.mean().filter(|_| self.reached.len() > 1)?;
-        let squares: f64 = self.reached.iter().map(|value| (value - mean).powi(2)).sum();
-        Some((squares / (self.reached.len() - 1) as f64).sqrt())
-    }
-}
-
-/// Results of all trials.
-pub(crate) struct Results {
-    outcomes: Vec<Outcome>,
-    /// Settings, the best first: those that more trials reached, then by the mean.
-    summaries: Vec<Summary>,
-    /// Best trial of the best setting.
-    pub(crate) best: Option<usize>,
-}
-
-impl Results {
-    /// Reads the results of the trials that have begun. Those of a population that were replaced only led to others.
-    pub(crate) fn read(root: &Path, plan: &Plan, search: &Search, goal: &Goal) -> Self {
-        let indices = if search.interval_steps().is_some() { plan.living() } else { (0..plan.trials.len()).collect() };
-        let outcomes: Vec<Outcome> = indices.into_iter().filter_map(|index| Outcome::read(root, index, goal)).collect();
-        let mut summaries: Vec<Summary> = Vec::new();
-        for Outcome { index, reached, .. } in &outcomes {
-            let setting = plan.trials[*index].setting;
-            let place = summaries.iter().position(|known| known.setting == setting).unwrap_or_else(|| {
-                summaries.push(Summary { setting, trials: Vec::new(), reached: Vec::new() });
-                summaries.len() - 1
-            });
-            summaries[place].trials.push(*index);
-            summaries[place].reached.extend(reached);
-        }
-        let missing = |found: &Summary| found.trials.len() - found.reached.len();
-        summaries.sort_by(|one, other| {
-            let by_mean = goal.order(one.mean()).total_cmp(&goal.order(other.mean()));
-            missing(one).cmp(&missing(other)).then(by_mean)
-        });
-        let of_best = |found: &&Outcome| summaries.first().is_some_and(|best| best.trials.contains(&found.index));
-        let by_goal = |one: &&Outcome, other: &&Outcome| goal.order(one.reached).total_cmp(&goal.order(other.reached));
-        let best = outcomes.iter().filter(of_best).min_by(by_goal).map(|found| found.index);
-        Self { outcomes, summaries, best }
-    }
-
-    fn as_json(&self, root: &Path, plan: &Plan, goal: &Goal) -> serde_json::Value {
-        let setting = |found: &Summary| {
-            json!({
-                "keys": plan.trials[found.trials[0]].keys.iter().cloned().collect::<BTreeMap<_, _>>(),
-                "trials": found.trials.iter().map(|index| index + 1).collect::<Vec<_>>(),
-                "mean": found.mean(),
-                "deviation": found.deviation(),
-            })
-        };
+/// Returns the results as JSON.
+pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value {
+    let setting = |found: SettingResult| {
         json!({
-            "sweep": root,
-            "goal": goal.to_string(),
-            "trials": plan.trials.len(),
-            "failed": plan.failed(),
-            "best": self.best.map(|index| format!("trial-{}", index + 1)),
-            "settings": self.summaries.iter().map(setting).collect::<Vec<_>>(),
+            "keys": plan.trials[found.trials[0]].keys.iter().cloned().collect::<BTreeMap<_, _>>(),
+            "trials": found.trials.iter().map(|index| index + 1).collect::<Vec<_>>(),
+            "mean": found.mean(),
+            "deviation": found.deviation(),
         })
-    }
-
-    fn print_settings(&self, plan: &Plan, goal: &Goal) {
-        say(&format!("\nGoal: {goal}"));
-        say("  setting  trials        mean   deviation      lowest     highest  keys");
-        for found in &self.summaries {
-            let Summary { setting, trials, reached } = found;
-            let end = |of: fn(f64, f64) -> f64| reached.iter().copied().reduce(of);
-            let cells = [found.mean(), found.deviation(), end(f64::min), end(f64::max)];
-            let cells: String = cells.iter().map(|cell| format!("{:>10}  ", value(*cell))).collect();
-            let (count, keys) =
-                (format!("{}/{}", reached.len(), trials.len()), keys_text(&plan.trials[trials[0]].keys));
-            say(&shown(format!("{setting:>9}  {count:>6}  {cells}{keys}").trim_end()));
-        }
-        say("trials: those that reached the goal, of all; deviation: standard deviation over their seeds.");
-    }
-
-    fn draw(&self, root: &Path, plan: &Plan, goal: &Goal) {
-        let curve = |found: &Summary| SweptCurve {
-            name: keys_text(&plan.trials[found.trials[0]].keys),
-            lines: found.trials.iter().map(|index| line(root, plan, *index)).collect(),
-        };
-        let curves: Vec<SweptCurve> = self.summaries.iter().map(curve).collect();
-        let title = format!("{}: {goal}", root.file_name().unwrap_or_default().to_string_lossy());
-        if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &root.join("sweep.png")) {
-            say_error(&format!("the picture is missing: {}", error_chain(&why)));
-        }
-    }
+    };
+    json!({
+        "sweep": results.root,
+        "goal": results.goal.to_string(),
+        "trials": plan.trials.len(),
+        "failed": plan.failed(),
+        "best": results.best(plan).map(|index| format!("trial-{}", index + 1)),
+        "settings": results.settings(plan).into_iter().map(setting).collect::<Vec<_>>(),
+    })
 }
 
-/// Prints the tables of a sweep, draws its picture, and returns the results as JSON.
-pub(crate) fn print_end(folder: &SweepFolder, plan: &Plan, search: &Search, goal: &Goal) -> serde_json::Value {
-    let root = folder.root();
-    let results = Results::read(root, plan, search, goal);
-    results.draw(root, plan, goal);
-    if let Some(best) = results.best {
-        print_table(&results.outcomes.iter().map(|found| &found.record).collect::<Vec<_>>(), None);
-        results.print_settings(plan, goal);
-        say(&format!("\nBest: {}", shorter(&folder.trial(best)).display()));
-        if search.interval_steps().is_some() {
-            print_schedule(root, plan, best);
-        }
-        say(&format!("Written: {0}/sweep.csv, {0}/sweep.png", shorter(root).display()));
+fn draw(plan: &Plan, SweepResults { root, goal, .. }: &SweepResults, settings: &[SettingResult]) {
+    let curve = |found: &SettingResult| SweptCurve {
+        name: keys_text(&plan.trials[found.trials[0]].keys),
+        lines: found.trials.iter().map(|index| line(root, plan, *index)).collect(),
+    };
+    let curves: Vec<SweptCurve> = settings.iter().map(curve).collect();
+    let title = format!("{}: {goal}", root.file_name().unwrap_or_default().to_string_lossy());
+    if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &root.join("sweep.png")) {
+        say_error(&format!("the picture is missing: {}", error_chain(&why)));
     }
-    results.as_json(root, plan, goal)
 }
 
 /// Returns a path from the working directory, if it is below it.
@@ -236,8 +163,9 @@ pub(crate) fn shorter(path: &Path) -> PathBuf {
 /// Returns the trials from which a trial descends, the first one first, each with the step at which the next one begins.
 fn ancestors(plan: &Plan, index: usize) -> Vec<(usize, u64)> {
     let mut line = vec![(index, u64::MAX)];
-    while let Some((parent, steps)) = line.last().and_then(|(index, _)| plan.trials.get(*index)?.parent)
-        && line.len() <= plan.trials.len()
+    // A parent is older than its fork.
+    while let Some((parent, steps)) =
+        line.last().and_then(|(index, _)| plan.trials[*index].parent.filter(|(parent, _)| parent < index))
     {
         line.push((parent, steps));
     }

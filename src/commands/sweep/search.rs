@@ -1,4 +1,4 @@
-//! Search file of a sweep: strategy, goal and ranges of keys.
+//! SweepSearch file of a sweep: strategy, goal and ranges of keys.
 
 use toml::{Table, Value};
 use treadmill_runtime::{numbers::parse_count, seeds, words::nearest};
@@ -34,7 +34,7 @@ pub(crate) type Setting = Vec<(String, String)>;
 
 /// What is searched.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Search {
+pub(crate) struct SweepSearch {
     pub(crate) strategy: Strategy,
     /// Settings to try, or members of the population.
     pub(crate) settings: usize,
@@ -44,7 +44,7 @@ pub(crate) struct Search {
     pub(crate) keys: Vec<(String, KeyRange)>,
 }
 
-impl Search {
+impl SweepSearch {
     /// Returns the search without a file.
     ///
     /// # Errors
@@ -205,8 +205,8 @@ fn collect(section: &str, entries: &Table, keys: &mut Vec<(String, KeyRange)>, w
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Search, String> {
-        Search::read(text, "s.toml", None, None).map_err(|why| why.to_string())
+    fn read(text: &str) -> Result<SweepSearch, String> {
+        SweepSearch::read(text, "s.toml", None, None).map_err(|why| why.to_string())
     }
 
     #[test]

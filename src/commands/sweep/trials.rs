@@ -27,7 +27,7 @@ const LOCK_TIMEOUT: Duration = Duration::from_secs(10);
 const LOG_END_BYTES: i64 = 8 << 10;
 
 /// Trials that are to run.
-pub(crate) struct Fleet<'a> {
+pub(crate) struct TrialRunner<'a> {
     pub(crate) folder: &'a SweepFolder,
     pub(crate) shutdown: &'a Shutdown,
     /// Trials at once.
@@ -47,7 +47,7 @@ pub(crate) enum Ended {
     NoRoom,
 }
 
-impl Fleet<'_> {
+impl TrialRunner<'_> {
     /// Runs trials of a plan, and calls `ended` with each that has ended and its exit code. One that stops because the sweep
     /// was asked to is not among them.
     ///
@@ -168,12 +168,12 @@ impl Fleet<'_> {
 
 /// Returns the flags of the sweep's command line that a trial has. The configuration of a fork is that of its parent.
 pub(crate) fn flags(plan: &Plan, is_fork: bool, has_own_steps: bool) -> impl Iterator<Item = String> + '_ {
-    let is_kept = move |flag: &&String| {
-        let name = flag.split('=').next().unwrap_or_default();
-        !(is_fork && ["--preset", "--init-from", "--fork", "--checkpoint"].contains(&name))
-            && !(has_own_steps && name == "--steps")
+    let is_replaced = move |flag: &&String| match flag.split('=').next().unwrap_or_default() {
+        "--preset" | "--init-from" | "--fork" | "--checkpoint" => is_fork,
+        "--steps" => has_own_steps,
+        _ => false,
     };
-    plan.flags.iter().filter(is_kept).cloned()
+    plan.flags.iter().filter(move |flag| !is_replaced(flag)).cloned()
 }
 
 /// Returns the folder of the state that a trial forks.
