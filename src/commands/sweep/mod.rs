@@ -53,7 +53,7 @@ const OWN_FLAGS: [&str; 7] = ["resume", "resume_or_start", "run_dir", "seed", "s
 /// Flags of `sweep`.
 #[derive(Args)]
 pub struct SweepArgs {
-    /// SweepSearch file (TOML): strategy, goal, and keys with ranges (see docs/guide/sweep.md); without it, seeds are compared.
+    /// Search file (TOML): strategy, goal, and keys with ranges (see docs/guide/sweep.md); without it, seeds are compared.
     #[arg(value_name = "FILE", value_parser = existing_file)]
     file: Option<PathBuf>,
     /// Seeds of each setting, from --seed on; 3 without a search file.

@@ -1,4 +1,4 @@
-//! SweepSearch file of a sweep: strategy, goal and ranges of keys.
+//! Search file of a sweep: strategy, goal and ranges of keys.
 
 use toml::{Table, Value};
 use treadmill_runtime::{numbers::parse_count, seeds, words::nearest};

@@ -225,7 +225,6 @@ mod tests {
         });
         let moved = moved.count();
         assert!((700..800).contains(&moved), "{moved}");
-        assert!(is_same("0.001", &KeyRange::Uniform([0.0, 1e-3], 3).perturbed("0.001", &mut random)) || moved > 0);
         for _ in 0..100 {
             let new: i64 = epochs.perturbed("3", &mut random).parse().unwrap();
             assert!((2..=4).contains(&new), "{new}");
