@@ -189,7 +189,8 @@ fn collect(section: &str, entries: &Table, keys: &mut Vec<(String, KeyRange)>, w
     for (name, value) in entries {
         let key = if section.is_empty() { name.clone() } else { format!("{section}.{name}") };
         match value {
-            Value::Table(table) if KeyRange::is_range(table) || !table.values().all(Value::is_table) => {
+            // Keys have a section.
+            Value::Table(table) if key.contains('.') || KeyRange::is_range(table) => {
                 match KeyRange::read(&key, table) {
                     Ok(range) => keys.push((key, range)),
                     Err(why) => wrong.extend(why),
