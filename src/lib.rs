@@ -23,7 +23,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::{
     commands::{
         actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, motion, robot, router,
-        runs, status, train, watch,
+        runs, status, sweep, train, watch,
     },
     launch::{exit_code, familiar_flags, log, output, processor, restart},
 };
@@ -43,6 +43,9 @@ enum Command {
     /// Train: run a learner in this process and start actor processes beside it.
     #[command(mut_arg("motion_fps", |arg| arg.visible_alias("fps")))]
     Train(train::TrainArgs),
+    /// Train with several seeds or settings and compare them: each trial is a run of its own.
+    #[command(mut_args(sweep::describe))]
+    Sweep(sweep::SweepArgs),
     /// Run only the learner; actors join from other terminals or machines.
     #[command(mut_arg("motion_fps", |arg| arg.visible_alias("fps")))]
     Learner(learner::LearnerArgs),
@@ -125,10 +128,16 @@ fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
     // Training goes on without its output.
     let is_service = matches!(
         command,
-        Command::Train(_) | Command::Learner(_) | Command::Actor(_) | Command::Evaluator(_) | Command::Router(_)
+        Command::Train(_)
+            | Command::Sweep(_)
+            | Command::Learner(_)
+            | Command::Actor(_)
+            | Command::Evaluator(_)
+            | Command::Router(_)
     );
     let done = match command {
         Command::Train(args) => train::run(args, tasks),
+        Command::Sweep(args) => sweep::run(&args, tasks),
         Command::Learner(args) => learner::run(args, tasks),
         Command::Actor(args) => actor::run(args, tasks),
         Command::Evaluator(args) => evaluator::run(args, tasks),

@@ -1,7 +1,7 @@
 //! Subcommands: each module has the flags of its command and a function `run`.
 //!
 //! # Layout
-//! - Training: [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].
+//! - Training: [`train`], [`sweep`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].
 //! - While a run trains: [`status`], [`control`].
 //! - Trained policies: [`eval`], [`watch`], [`export`], [`runs`].
 //! - Robots: [`robot`], [`motion`].
@@ -23,5 +23,6 @@ pub(crate) mod robot;
 pub(crate) mod router;
 pub(crate) mod runs;
 pub(crate) mod status;
+pub(crate) mod sweep;
 pub(crate) mod train;
 pub(crate) mod watch;

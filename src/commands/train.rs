@@ -8,11 +8,10 @@ use crate::{
     diagnosis::certificates,
     launch::{
         durability::LearnerRun,
-        exit_code::Usage,
         host::HostOptions,
         metrics_page::MetricsArgs,
         prepared::{Launcher, RunCommand},
-        run_args::{AnyRunArgs, NewRunArgs},
+        run_args::{AnyRunArgs, NewRunArgs, OwnActorsArgs},
     },
     page::flags::TrainPageArgs,
     shared::network_args::NetworkArgs,
@@ -31,15 +30,8 @@ pub struct TrainArgs {
     metrics: MetricsArgs,
     #[command(flatten)]
     page: TrainPageArgs,
-    /// Run one actor in lock-step: the same seed gives the same weights bit for bit.
-    #[arg(long)]
-    deterministic: bool,
-    /// Actor processes; by default one per core.
-    #[arg(long)]
-    actors: Option<u32>,
-    /// Environments in total, divided among the actors.
-    #[arg(long)]
-    envs: Option<u32>,
+    #[command(flatten)]
+    actors: OwnActorsArgs,
     /// Endpoint to listen on; by default a free port on loopback, which is written to the run's folder.
     #[arg(long, value_name = "ENDPOINT")]
     listen: Option<String>,
@@ -52,16 +44,16 @@ pub fn run(args: TrainArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![listen], Vec::new())?;
     certificates::check_own(options.credentials.as_ref())?;
     let (metrics, watch) = (args.metrics.listen()?, args.page.open(args.network.tls.as_deref())?);
-    let counts = [("rollout.envs", args.envs), ("rollout.actors", args.actors)];
-    let mut changes: Vec<(_, toml::Value)> =
-        counts.into_iter().filter_map(|(key, count)| Some((key, count?.into()))).collect();
-    if args.deterministic {
-        if args.actors.is_some_and(|actors| actors > 1) {
-            return Err(Usage("--deterministic runs one actor in lock-step; leave --actors out".to_string()).into());
-        }
-        changes.push(("run.deterministic", true.into()));
-    }
+    let changes = args.actors.changes()?;
     let (new, any) = (&args.new, &args.any);
     let run = LearnerRun { launcher, new, any, changes: &changes, name: None, is_standby: false };
-    run.run(HostOptions { any, bus: &options, command: RunCommand::Train, actors: args.actors, metrics, watch, tasks })
+    run.run(HostOptions {
+        any,
+        bus: &options,
+        command: RunCommand::Train,
+        actors: args.actors.actors,
+        metrics,
+        watch,
+        tasks,
+    })
 }

@@ -6,7 +6,7 @@ use std::{net::SocketAddr, path::Path};
 use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
 use treadmill_humanoid::{Model, motion::Motion, worlds_per_pass};
-use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
+use treadmill_learner::{checkpoint::TrainingState, metrics::Figures, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 

@@ -29,6 +29,35 @@ pub fn begin(
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
+    let Sources { source, fork, init_from } = sources(launcher, new, any, changes)?;
+    let mut config = source.build()?;
+    complete(&mut config);
+    check_external(launcher.command, &config, any)?;
+    match fork {
+        Some(fork) => branch_off(launcher, new, any, config, fork),
+        None if config.is_external() => begin_external(new, any, config, init_from),
+        None => begin_built_in(launcher, new, any, config, init_from),
+    }
+}
+
+/// Configuration of a new run as its flags give it, and what it begins from.
+pub struct Sources {
+    /// Keys by flags and files.
+    pub source: ConfigSource,
+    fork: Option<Fork>,
+    init_from: Option<InitFrom>,
+}
+
+/// Reads the configuration of a new run.
+///
+/// # Errors
+/// If flags are refused, or what the run begins from cannot be read.
+pub fn sources(
+    launcher: Launcher<'_>,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Sources> {
     let fork = new.fork.as_ref().map(|run| Fork::read(run, any.checkpoint)).transpose()?;
     let mut source = ConfigSource::default();
     match &fork {
@@ -45,14 +74,7 @@ pub fn begin(
     }
     new.add_to(&mut source, launcher.tasks, changes)?;
     any.steps.map_or(Ok(()), |steps| add_count(&mut source, "run.steps", steps))?;
-    let mut config = source.build()?;
-    complete(&mut config);
-    check_external(launcher.command, &config, any)?;
-    match fork {
-        Some(fork) => branch_off(launcher, new, any, config, fork),
-        None if config.is_external() => begin_external(new, any, config, init_from),
-        None => begin_built_in(launcher, new, any, config, init_from),
-    }
+    Ok(Sources { source, fork, init_from })
 }
 
 /// Adds the keys that follow from the size of a robot of the velocity task, unless a preset has those of its robot.

@@ -181,6 +181,39 @@ pub struct AnyRunArgs {
     pub json: bool,
 }
 
+/// Flags of commands that start the actors of a run themselves.
+#[derive(Args, Clone, Debug, Default)]
+pub struct OwnActorsArgs {
+    /// Run one actor in lock-step: the same seed gives the same weights bit for bit.
+    #[arg(long)]
+    pub deterministic: bool,
+    /// Actor processes; by default one per core.
+    #[arg(long)]
+    pub actors: Option<u32>,
+    /// Environments in total, divided among the actors.
+    #[arg(long)]
+    pub envs: Option<u32>,
+}
+
+impl OwnActorsArgs {
+    /// Returns the configuration keys that these flags set.
+    ///
+    /// # Errors
+    /// If they contradict each other.
+    pub fn changes(&self) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
+        let counts = [("rollout.envs", self.envs), ("rollout.actors", self.actors)];
+        let mut changes: Vec<(_, toml::Value)> =
+            counts.into_iter().filter_map(|(key, count)| Some((key, count?.into()))).collect();
+        if self.deterministic {
+            if self.actors.is_some_and(|actors| actors > 1) {
+                return Err(Usage("--deterministic runs one actor in lock-step; leave --actors out".to_string()));
+            }
+            changes.push(("run.deterministic", true.into()));
+        }
+        Ok(changes)
+    }
+}
+
 /// Adds a count to a configuration.
 pub fn add_count(source: &mut ConfigSource, key: &str, count: u64) -> anyhow::Result<()> {
     let count =

@@ -179,7 +179,7 @@ fn spawn(fleet: &FleetOptions, role: Role, restart: u64) -> anyhow::Result<Child
 }
 
 /// Returns the path of this program, also if its file was replaced after the start, as by an upgrade.
-fn own_program() -> anyhow::Result<PathBuf> {
+pub fn own_program() -> anyhow::Result<PathBuf> {
     let path = std::env::current_exe().context("this program's own path is unknown")?;
     // Linux names a file that is gone as `PATH (deleted)`, and still has its content.
     Ok(if path.exists() { path } else { PathBuf::from("/proc/self/exe") })

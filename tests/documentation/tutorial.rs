@@ -1,7 +1,7 @@
-//! The tutorial: its commands run as printed, with shorter trainings. Its parts in Python, on several hosts and in the
-//! browser have tests of their own.
+//! The tutorial and the guides to sweeps and motions: their commands run as printed, with shorter trainings. Parts in Python, on several
+//! hosts and in the browser have tests of their own.
 
-use std::{path::Path, process::Command};
+use std::{fs, path::Path, process::Command};
 
 use crate::support::*;
 
@@ -51,5 +51,25 @@ fn the_tutorial_works_as_printed() {
     }
     for made in ["runs/first/learning_curve.png", "walk.gif", "policy.onnx"] {
         assert!(folder.path().join(made).metadata().is_ok_and(|file| file.len() > 1000), "{made}");
+    }
+}
+
+#[test]
+fn sweeps_work_as_printed() {
+    let page = page("guide/sweep");
+    let (folder, _) = folders();
+    for block in page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()) {
+        let name = block.lines().next().unwrap().strip_prefix("# ").unwrap();
+        fs::write(folder.path().join(name), block.replace("interval_steps = 500000", "interval_steps = 1000")).unwrap();
+    }
+    let commands = commands(&page);
+    assert!(commands.len() >= 5, "{commands:?}");
+    for command in commands {
+        let smaller = command.replace(" --preset walk", "").replace("--steps 3000000", "--steps 3000 --preset smoke");
+        let args: Vec<&str> = smaller.split_whitespace().skip(1).collect();
+        assert!(!done(folder.path(), &args).stdout.is_empty(), "{command}");
+    }
+    for made in ["seeds/sweep.png", "search/sweep.csv", "population/lineage.csv"] {
+        assert!(folder.path().join("runs").join(made).metadata().is_ok_and(|file| file.len() > 100), "{made}");
     }
 }

@@ -1,4 +1,4 @@
-//! Training runs from start to end: determinism, resuming, warm starts, full disks, evaluation, TensorBoard, GPUs.
+//! Training runs from start to end: determinism, resuming, warm starts, full disks, sweeps, evaluation, TensorBoard, GPUs.
 
 #[cfg(feature = "cuda")]
 mod cuda;
@@ -9,6 +9,7 @@ mod own_task;
 mod resume;
 #[path = "../support/mod.rs"]
 mod support;
+mod sweep;
 mod tensorboard;
 mod train;
 mod warm_start;

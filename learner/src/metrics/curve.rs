@@ -5,6 +5,7 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
@@ -17,14 +18,14 @@ use super::curve_points::{CurvePoint, CurvePoints};
 use super::table::format_number;
 
 /// Height of a panel, and of the line above them, in pixels.
-const PANEL_HEIGHT: u32 = 380;
-const HEADER_HEIGHT: u32 = 60;
+pub(super) const PANEL_HEIGHT: u32 = 380;
+pub(super) const HEADER_HEIGHT: u32 = 60;
 /// Most points that are drawn as dots: a line alone would not show that there are few.
 const DOTS_MAX: usize = 60;
 
-const TITLE: RGBColor = RGBColor(40, 40, 40);
+pub(super) const TITLE: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
-const BLUE: RGBColor = RGBColor(31, 119, 180);
+pub(super) const BLUE: RGBColor = RGBColor(31, 119, 180);
 const GREEN: RGBColor = RGBColor(44, 140, 60);
 const ORANGE: RGBColor = RGBColor(200, 80, 30);
 const PURPLE: RGBColor = RGBColor(120, 80, 160);
@@ -175,13 +176,72 @@ pub fn draw_curve(metrics_jsonl: &Path, facts: &CurveFacts, png: &Path) -> Resul
     atomic_file::write(png, &bytes).map_err(|source| CurveError::Write { path: png.to_path_buf(), source })
 }
 
-fn encode_png(rgb: &[u8], size: (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
+pub(super) fn encode_png(rgb: &[u8], size: (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size.0, size.1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.write_header()?.write_image_data(rgb)?;
     Ok(bytes)
+}
+
+/// Draws larger pixels, and returns their means: a header, and below it what `draw` draws.
+pub(super) fn painted(
+    size: (u32, u32),
+    header: &str,
+    draw: impl FnOnce(&Area<'_>) -> Result<(), DrawError>,
+) -> Result<Vec<u8>, DrawError> {
+    // The font is embedded, because a machine without a screen often has none. If registering it failed, drawing text
+    // would return an error.
+    let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
+    let size = (size.0 * SCALE, size.1 * SCALE);
+    let mut large = vec![0; 3 * size.0 as usize * size.1 as usize];
+    {
+        let area = BitMapBackend::with_buffer(&mut large, size).into_drawing_area();
+        area.fill(&WHITE)?;
+        let (above, panels) = area.split_vertically(HEADER_HEIGHT * SCALE);
+        let style = font(22).color(&TITLE).pos(Pos::new(HPos::Left, VPos::Center));
+        above.draw(&Text::new(header, scaled(24, 36), style))?;
+        draw(&panels)?;
+        area.present()?;
+    }
+    Ok(reduced(&large, size.0 as usize))
+}
+
+/// Chart over millions of environment steps.
+pub(super) type Chart<'a, 'b> = ChartContext<'a, BitMapBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws the axes of a panel.
+pub(super) fn axes<'a, 'b>(
+    area: &'a Area<'b>,
+    steps: Range<f64>,
+    values: Range<f64>,
+    axis: &str,
+) -> Result<Chart<'a, 'b>, DrawError> {
+    let (steps_span, values_span) = (steps.end, values.end - values.start);
+    let mut chart = ChartBuilder::on(area)
+        .margin(16 * SCALE)
+        .margin_top(44 * SCALE)
+        .margin_right(36 * SCALE)
+        .x_label_area_size(58 * SCALE)
+        .y_label_area_size(100 * SCALE)
+        .build_cartesian_2d(steps, values)?;
+    chart
+        .configure_mesh()
+        .max_light_lines(1)
+        .bold_line_style(GRID.stroke_width(SCALE))
+        .light_line_style(WHITE)
+        .axis_style(LABEL.stroke_width(SCALE))
+        .label_style(font(18).color(&LABEL))
+        .axis_desc_style(font(20).color(&TITLE))
+        .x_labels(11)
+        .y_labels(7)
+        .x_label_formatter(&|steps| if *steps == 0.0 { "0".into() } else { axis_label(*steps, steps_span) + " M" })
+        .y_label_formatter(&|value| axis_label(*value, values_span))
+        .x_desc("environment steps")
+        .y_desc(axis)
+        .draw()?;
+    Ok(chart)
 }
 
 /// Image of a run.
@@ -197,25 +257,11 @@ impl Image<'_> {
         (WIDTH, HEADER_HEIGHT + PANEL_HEIGHT * self.panels.len() as u32)
     }
 
-    /// Draws larger pixels, and returns their means.
     fn rgb(&self) -> Result<Vec<u8>, DrawError> {
-        // The font is embedded, because a machine without a screen often has none. If registering it failed, drawing text
-        // would return an error.
-        let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
-        let size = (self.size().0 * SCALE, self.size().1 * SCALE);
-        let mut large = vec![0; 3 * size.0 as usize * size.1 as usize];
-        {
-            let area = BitMapBackend::with_buffer(&mut large, size).into_drawing_area();
-            area.fill(&WHITE)?;
-            let (header, panels) = area.split_vertically(HEADER_HEIGHT * SCALE);
-            let style = font(22).color(&TITLE).pos(Pos::new(HPos::Left, VPos::Center));
-            header.draw(&Text::new(self.header(), scaled(24, 36), style))?;
-            for (index, area) in panels.split_evenly((self.panels.len(), 1)).iter().enumerate() {
-                self.draw_panel(index, area)?;
-            }
-            area.present()?;
-        }
-        Ok(reduced(&large, size.0 as usize))
+        painted(self.size(), &self.header(), |panels| {
+            let areas = panels.split_evenly((self.panels.len(), 1));
+            areas.iter().enumerate().try_for_each(|(index, area)| self.draw_panel(index, area))
+        })
     }
 
     /// Returns run, task, steps and day.
@@ -241,30 +287,8 @@ impl Image<'_> {
         let most = self.points.series.iter().flatten().map(|point| point.0).fold(0.0, f64::max);
         let steps = 0.0..if most > 0.0 { most } else { 1.0 };
         let values = value_range(&all, standing.filter(|_| !all.is_empty()), panel.from_zero);
-        let (steps_span, values_span) = (steps.end, values.end - values.start);
-        let middle = (steps_span / 2.0, (values.start + values.end) / 2.0);
-        let mut chart = ChartBuilder::on(area)
-            .margin(16 * SCALE)
-            .margin_top(44 * SCALE)
-            .margin_right(36 * SCALE)
-            .x_label_area_size(58 * SCALE)
-            .y_label_area_size(100 * SCALE)
-            .build_cartesian_2d(steps.clone(), values.clone())?;
-        chart
-            .configure_mesh()
-            .max_light_lines(1)
-            .bold_line_style(GRID.stroke_width(SCALE))
-            .light_line_style(WHITE)
-            .axis_style(LABEL.stroke_width(SCALE))
-            .label_style(font(18).color(&LABEL))
-            .axis_desc_style(font(20).color(&TITLE))
-            .x_labels(11)
-            .y_labels(7)
-            .x_label_formatter(&|steps| if *steps == 0.0 { "0".into() } else { axis_label(*steps, steps_span) + " M" })
-            .y_label_formatter(&|value| axis_label(*value, values_span))
-            .x_desc("environment steps")
-            .y_desc(panel.axis)
-            .draw()?;
+        let middle = (steps.end / 2.0, (values.start + values.end) / 2.0);
+        let mut chart = axes(area, steps.clone(), values.clone(), panel.axis)?;
         for resume in &self.points.resumes {
             chart.draw_series(dashed(&[(*resume, values.start), (*resume, values.end)], LABEL, 1))?;
         }

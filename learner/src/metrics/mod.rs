@@ -16,6 +16,7 @@
 //! - [`prometheus`]: [`PrometheusMetrics`], the newest values in Prometheus's text format.
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
 //! - `curve_points`: what the curve shows; `curve_marks`: marks, legends and soft edges.
+//! - `sweep_curve`: [`draw_sweep`], the curves of several runs as a PNG.
 //! - [`curve_thread`]: [`CurveThread`], which draws the curve at intervals during training.
 //!
 //! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
@@ -37,6 +38,7 @@ pub mod report;
 pub mod reward_terms;
 pub mod scalars;
 pub mod sparkline;
+mod sweep_curve;
 pub mod table;
 pub mod tensorboard;
 
@@ -51,6 +53,7 @@ pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::{MetricsReport, ReportOptions};
 pub use reward_terms::RewardTerms;
+pub use sweep_curve::{SweptCurve, draw_sweep};
 pub use tensorboard::{EventWriter, Histogram};
 
 use std::fs::File;

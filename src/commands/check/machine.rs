@@ -15,8 +15,8 @@ use crate::{
 const FREE_MIN_BYTES: u64 = 200_000_000;
 const FREE_BYTES: u64 = 1_000_000_000;
 /// Memory of a learner and of an actor with 64 robots, which their own metrics show, rounded up.
-const LEARNER_BYTES: u64 = 150_000_000;
-const ACTOR_BYTES: u64 = 60_000_000;
+pub(crate) const LEARNER_BYTES: u64 = 150_000_000;
+pub(crate) const ACTOR_BYTES: u64 = 60_000_000;
 /// Open files of a process before actors join, without and with checkpoints, logs and unidentified connections.
 const OWN_FILES: u64 = 128;
 const ALL_FILES: u64 = 512;

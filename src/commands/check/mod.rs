@@ -6,7 +6,7 @@
 //! - [`learner`]: answer of a learner. The way to it and the certificates are diagnosed by `src/diagnosis/`.
 
 mod learner;
-mod machine;
+pub(crate) mod machine;
 mod store;
 
 use std::{path::PathBuf, process::ExitCode};

@@ -73,7 +73,7 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     if args.json {
         records.iter().zip(&differences).for_each(|(record, changes)| say(&as_json(record, changes)));
     } else {
-        print_table(&records, args.keys.then_some(&differences));
+        print_table(&records.iter().collect::<Vec<_>>(), args.keys.then_some(&differences));
         if !args.keys && records.len() > 1 {
             let paths: String =
                 args.paths.iter().map(|path| format!(" {}", quoted(&path.display().to_string()))).collect();
@@ -135,7 +135,8 @@ const TASK_CHARS_MAX: usize = 14;
 /// Most characters of a row.
 const ROW_CHARS_MAX: usize = 100;
 
-fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>) {
+/// Prints a table of runs, with a legend.
+pub(crate) fn print_table(records: &[&Record], differences: Option<&[BTreeMap<&str, &str>]>) {
     let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_string());
     let rows: Vec<[String; 8]> = records
         .iter()
@@ -175,7 +176,7 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     say(&shown(&line(HEADINGS)));
     for (number, row) in rows.iter().enumerate() {
         say(&shown(&line(row.each_ref().map(String::as_str))));
-        let Record { tags, description, .. } = &records[number];
+        let Record { tags, description, .. } = records[number];
         let labels: String = tags.iter().map(|tag| format!("[{tag}] ")).collect::<String>() + description;
         if !labels.is_empty() {
             say(&shown(&shorten(&format!("    {}", labels.trim_end()), ROW_CHARS_MAX)));
@@ -193,7 +194,8 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     say("return, falls: of the last training episodes.");
 }
 
-fn duration(seconds: f64) -> String {
+/// Formats a duration.
+pub(crate) fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     match (whole / 3600, whole / 60 % 60, whole % 60) {
         (0, 0, seconds) => format!("{seconds} s"),

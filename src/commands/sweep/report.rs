@@ -1,0 +1,218 @@
+//! Results of a sweep: a line for each trial, tables, CSV, picture, and the schedule of the best line.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use serde_json::json;
+use treadmill_learner::metrics::{SweptCurve, draw_sweep, table::format_number};
+use treadmill_runtime::{
+    error_chain,
+    numbers::thousands,
+    words::{quoted, shown},
+};
+
+use super::{
+    plan::{self, Plan, SweepFolder, Trial},
+    results::{SettingResult, SweepResults},
+    search::SweepSearch,
+    trials::{flags, last_error},
+};
+use crate::{
+    commands::runs::{duration, print_table, record::Record},
+    launch::output::{say, say_error},
+};
+
+/// Most columns of a row's keys.
+const KEYS_CHARS_MAX: usize = 60;
+
+/// Prints the line of a trial that has ended.
+pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, results: &SweepResults, index: usize) {
+    let Trial { seed, keys, exit, .. } = &plan.trials[index];
+    let found = results.of(index);
+    let (steps, seconds) = found.map_or((0, 0.0), |found| (found.record.env_steps, found.record.wall_s));
+    let mut line = format!("trial-{} of {}: seed {seed}", index + 1, plan.trials.len());
+    if !keys.is_empty() {
+        line += &format!(", {}", keys_text(keys));
+    }
+    line += &format!(": {} steps in {}", thousands(steps), duration(seconds));
+    line += &match exit {
+        Some(0) | None => format!(", {}: {}", results.goal, value(found.and_then(|found| found.reached))),
+        Some(code) => {
+            let why = last_error(&folder.log(index)).unwrap_or_else(|| folder.log(index).display().to_string());
+            format!(", failed with exit code {code}: {why}")
+        }
+    };
+    say(&shown(&line));
+}
+
+/// Writes `sweep.csv`, and of a population `lineage.csv`.
+///
+/// # Errors
+/// If the folder cannot be written.
+pub(crate) fn write_tables(
+    folder: &SweepFolder,
+    plan: &Plan,
+    search: &SweepSearch,
+    results: &SweepResults,
+) -> anyhow::Result<()> {
+    let names: Vec<&str> = search.keys.iter().map(|(key, _)| key.as_str()).collect();
+    let begin = "trial,setting,seed,exit,env_steps,wall_s,goal,best_distance_m,velocity_error_mps,return,fall_fraction";
+    let mut text = csv_row([begin].into_iter().chain(names.iter().copied()).map(str::to_string));
+    let mut lineage = csv_row(["trial,parent,env_steps,seed"].into_iter().chain(names).map(str::to_string));
+    for (index, Trial { seed, setting, keys, exit, parent }) in plan.trials.iter().enumerate() {
+        let found = results.of(index);
+        let record = found.map(|found| &found.record);
+        let numbers = [
+            record.map(|record| record.env_steps as f64),
+            record.map(|record| record.wall_s),
+            found.and_then(|found| found.reached),
+            record.and_then(Record::best_m),
+            record.and_then(|record| record.velocity_error_mps),
+            record.and_then(|record| record.training_return),
+            record.and_then(|record| record.fall_fraction),
+        ];
+        let trial = (index + 1).to_string();
+        let begin = [trial.clone(), setting.to_string(), seed.to_string(), shown_or_empty(*exit)];
+        let numbers = numbers.map(shown_or_empty);
+        let values = || keys.iter().map(|(_, value)| csv_cell(value));
+        text += &csv_row(begin.into_iter().chain(numbers).chain(values()));
+        let (parent, steps) =
+            (shown_or_empty(parent.map(|(parent, _)| parent + 1)), parent.map_or(0, |(_, steps)| steps));
+        lineage += &csv_row([trial, parent, steps.to_string(), seed.to_string()].into_iter().chain(values()));
+    }
+    folder.write("sweep.csv", &text)?;
+    if search.interval_steps().is_some() { folder.write("lineage.csv", &lineage) } else { Ok(()) }
+}
+
+fn shown_or_empty<T: ToString>(number: Option<T>) -> String {
+    number.map(|number| number.to_string()).unwrap_or_default()
+}
+
+fn csv_row(cells: impl Iterator<Item = String>) -> String {
+    cells.collect::<Vec<_>>().join(",") + "\n"
+}
+
+fn csv_cell(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_string() }
+}
+
+/// Prints the tables of a sweep and draws its picture.
+pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
+    let (settings, root) = (results.settings(plan), &results.root);
+    draw(plan, results, &settings);
+    let Some(best) = results.best(plan) else { return };
+    print_table(&results.counted(plan).into_iter().map(|(_, found)| &found.record).collect::<Vec<_>>(), None);
+    say(&format!("\nGoal: {}", results.goal));
+    say("  setting  trials        mean   deviation      lowest     highest  keys");
+    for found in &settings {
+        let SettingResult { setting, trials, reached } = found;
+        let end = |of: fn(f64, f64) -> f64| reached.iter().copied().reduce(of);
+        let cells = [found.mean(), found.deviation(), end(f64::min), end(f64::max)];
+        let cells: String = cells.iter().map(|cell| format!("{:>10}  ", value(*cell))).collect();
+        let (count, keys) = (format!("{}/{}", reached.len(), trials.len()), keys_text(&plan.trials[trials[0]].keys));
+        say(&shown(format!("{setting:>9}  {count:>6}  {cells}{keys}").trim_end()));
+    }
+    say("trials: those that reached the goal, of all; deviation: standard deviation over their seeds.");
+    say(&format!("\nBest: {}", shorter(&plan::trial(root, best)).display()));
+    if plan.trials[best].parent.is_some() {
+        print_schedule(root, plan, best);
+    }
+    say(&format!("Written: {0}/sweep.csv, {0}/sweep.png", shorter(root).display()));
+}
+
+/// Returns the results as JSON.
+pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value {
+    let setting = |found: SettingResult| {
+        json!({
+            "keys": plan.trials[found.trials[0]].keys.iter().cloned().collect::<BTreeMap<_, _>>(),
+            "trials": found.trials.iter().map(|index| index + 1).collect::<Vec<_>>(),
+            "mean": found.mean(),
+            "deviation": found.deviation(),
+        })
+    };
+    json!({
+        "sweep": results.root,
+        "goal": results.goal.to_string(),
+        "trials": plan.trials.len(),
+        "failed": plan.failed(),
+        "best": results.best(plan).map(|index| format!("trial-{}", index + 1)),
+        "settings": results.settings(plan).into_iter().map(setting).collect::<Vec<_>>(),
+    })
+}
+
+fn draw(plan: &Plan, SweepResults { root, goal, .. }: &SweepResults, settings: &[SettingResult]) {
+    let curve = |found: &SettingResult| SweptCurve {
+        name: keys_text(&plan.trials[found.trials[0]].keys),
+        lines: found.trials.iter().map(|index| line(root, plan, *index)).collect(),
+    };
+    let curves: Vec<SweptCurve> = settings.iter().map(curve).collect();
+    let title = format!("{}: {goal}", root.file_name().unwrap_or_default().to_string_lossy());
+    if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &root.join("sweep.png")) {
+        say_error(&format!("the picture is missing: {}", error_chain(&why)));
+    }
+}
+
+/// Returns a path from the working directory, if it is below it.
+pub(crate) fn shorter(path: &Path) -> PathBuf {
+    let here = std::env::current_dir().and_then(std::fs::canonicalize).unwrap_or_default();
+    path.strip_prefix(here).map_or_else(|_| path.to_path_buf(), Path::to_path_buf)
+}
+
+/// Returns the trials from which a trial descends, the first one first, each with the step at which the next one begins.
+fn ancestors(plan: &Plan, index: usize) -> Vec<(usize, u64)> {
+    let mut line = vec![(index, u64::MAX)];
+    // A parent is older than its fork.
+    while let Some((parent, steps)) =
+        line.last().and_then(|(index, _)| plan.trials[*index].parent.filter(|(parent, _)| parent < index))
+    {
+        line.push((parent, steps));
+    }
+    line.reverse();
+    line
+}
+
+/// Returns the logs of a trial and its ancestors, each with its last step.
+fn line(root: &Path, plan: &Plan, index: usize) -> Vec<(PathBuf, u64)> {
+    let line = ancestors(plan, index).into_iter();
+    line.map(|(index, until)| (plan::trial(root, index).join("metrics.jsonl"), until)).collect()
+}
+
+/// Prints the commands that train a trial of a population anew.
+pub(crate) fn print_schedule(root: &Path, plan: &Plan, best: usize) {
+    say(&format!("\nSchedule of {}, as commands that train it anew:", shorter(&plan::trial(root, best)).display()));
+    for (number, (index, until)) in ancestors(plan, best).into_iter().enumerate() {
+        let Trial { seed, keys, .. } = &plan.trials[index];
+        let mut words: Vec<String> = vec!["treadmill".into(), "train".into()];
+        words.extend((number > 0).then(|| format!("--fork=runs/line-{number}")));
+        words.extend(flags(plan, number > 0, true));
+        words.extend(keys.iter().map(|(key, value)| format!("--set={key}={value}")));
+        words.push(format!("--seed={seed}"));
+        words.push(format!("--steps={}", until.min(plan.steps)));
+        words.push(format!("--run-dir=runs/line-{}", number + 1));
+        say(&words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "));
+    }
+}
+
+/// Prints that a trial forked another one.
+pub(crate) fn print_fork(plan: &Plan, index: usize) {
+    let Trial { keys, parent, .. } = &plan.trials[index];
+    let (parent, steps) = parent.unwrap_or_default();
+    let (name, parent, steps) = (index + 1, parent + 1, thousands(steps));
+    say(&shown(&format!("trial-{name} forks trial-{parent} at {steps} steps: {}", keys_text(keys))));
+}
+
+fn value(number: Option<f64>) -> String {
+    number.map_or_else(|| "–".to_string(), format_number)
+}
+
+fn keys_text(keys: &[(String, String)]) -> String {
+    let text = keys.iter().map(|(key, value)| format!("{key} = {value}")).collect::<Vec<_>>().join(", ");
+    if text.chars().count() <= KEYS_CHARS_MAX {
+        return text;
+    }
+    // Sections cost the most room.
+    let name = |key: &str| key.rsplit('.').next().unwrap_or_default().to_string();
+    keys.iter().map(|(key, value)| format!("{} = {value}", name(key))).collect::<Vec<_>>().join(", ")
+}
