@@ -29,7 +29,7 @@ macro_rules! motion {
             "[env]\ntask = \"motion\"\nrobot = \"",
             $card,
             "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.0\nmax_episode_steps = 500\n\
-             [policy]\ninit_log_std = -1.8\n[ppo]\ngamma = 0.98\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n\
+             [policy]\ninit_log_std = -1.8\n[ppo]\ngamma = 0.98\ngae_lambda = 0.9\nbatch_growth_steps = 4000000\n\
              [randomisation]\nfloor_friction_scale = [0.5, 1.3]\nmass_scale = [0.9, 1.1]\nmotor_scale = [0.9, 1.1]\n\
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
              push_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n"
