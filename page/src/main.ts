@@ -137,6 +137,7 @@ const treadmill = {
   shown,
   frames: () => timeline.received,
   robots: () => view.robots.length,
+  ghosts: () => view.robots.filter(({ ghost }) => ghost.visible).length,
   connected: () => connection.connected,
   steers: () => steering.steers,
   othersSteer: () => steering.othersSteer,

@@ -81,6 +81,24 @@ fn the_page_shows_a_robot_that_moves_and_obeys_the_keyboard() {
 }
 
 #[test]
+fn the_imitated_motion_is_a_ghost_beside_the_robot() {
+    let (folder, run) = folders();
+    let Some(mut browser) = Browser::start() else { return };
+    motion::write_imitated_robot(folder.path());
+    motion::write_motion(folder.path(), "squat.csv", 0.6);
+    let train = ["train", "--preset", "smoke", "--task", "motion", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
+    let time = set(&["env.control_step_s=0.02", "env.substeps=5"]);
+    let motion = ["--motion", "squat.csv", "--fps", "50", "--run-dir", run.to_str().unwrap()];
+    done(folder.path(), &[&train[..], &time, &motion].concat());
+    let (watching, address) = watch(folder.path(), &["run"]);
+    let page = browser.open(&address, WIDE);
+    browser.wait_for(&page, "window.treadmill?.frames() > 10 && window.treadmill.ghosts() === 1");
+    browser.screenshot(&page).keep("ghost.png");
+    assert_clean(&browser, &address);
+    stop(watching);
+}
+
+#[test]
 fn policies_stand_side_by_side_on_a_phone_and_read_only_pages_cannot_steer() {
     let folder = tempfile::tempdir().unwrap();
     let Some(mut browser) = Browser::start() else { return };

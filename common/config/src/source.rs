@@ -218,7 +218,7 @@ pub(crate) mod tests {
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(
             message("nonsense.key=1")
-                .contains("allowed: run, env, velocity, rewards, ground, task, randomisation, rollout, policy, ppo, learner, eval, bus")
+                .contains("allowed: run, env, velocity, rewards, motion, ground, task, randomisation, rollout, policy, ppo, learner, eval, bus")
         );
         assert!(message("rollout.max_in_flight=2").contains("where learner.mode is \"sync\""));
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));

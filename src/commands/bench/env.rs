@@ -54,6 +54,7 @@ pub fn run(args: &EnvArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let config = args.config()?;
     let file = args.model.model.as_deref();
     let text = model::completed(&config, file, &args.model.file, "")?;
+    let text = model::with_given_motions(&config, &text, &args.model.motion)?;
     // Reports errors of the model file.
     model::environment(tasks, &config, &text, file)?;
     let environment = config.environment();

@@ -10,6 +10,7 @@ use treadmill_humanoid::{
     EnvConfig, EnvTask, Environment, EnvironmentConfig, Mirror, Model, Physics, RandomisationConfig, Task,
 };
 
+use crate::physics_version::Scene;
 use crate::support::reset;
 use crate::velocity::{CARD, with_card};
 
@@ -66,6 +67,11 @@ fn model_with(motions: &[Motion]) -> String {
 
 fn environment(config: &EnvironmentConfig) -> Environment {
     Environment::new(config, &model_with(&[motion()])).unwrap()
+}
+
+/// Returns settings, seed and model of a robot that imitates the motion.
+pub(crate) fn scene() -> Scene {
+    (config(MotionConfig { future_steps: 1, ..MotionConfig::default() }), 3, model_with(&[motion()]))
 }
 
 /// Task and simulation, with the motion control step by control step.

@@ -12,6 +12,9 @@ use crate::model::Model;
 use crate::motion::SampledMotion;
 use crate::physics::{LinkMotion, Physics};
 
+/// Most control steps of all motions: they are kept in memory.
+const STEPS_MAX: f64 = 400_000.0;
+
 /// Pose and velocities of a link, in single precision: a motion of 20 minutes has 60,000 control steps.
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -77,6 +80,13 @@ impl Reference {
             step_s,
             model,
         };
+        let steps: f64 = reference.model.motions.iter().map(|motion| motion.duration_s() / step_s + 1.0).sum();
+        if steps > STEPS_MAX {
+            return Err(ModelError::Motion(format!(
+                "the motions have {steps:.0} control steps; allowed: {STEPS_MAX:.0}, so give fewer, or a longer \
+                 env.control_step_s"
+            )));
+        }
         for motion in reference.model.motions.clone().iter() {
             let start = reference.positions.len();
             let sampled = SampledMotion::new(motion, step_s);
