@@ -123,7 +123,7 @@ impl Evaluation {
     }
 }
 
-/// Plays `episodes` episodes and calls `on_step` after every step, which may end the evaluation.
+/// Plays `episodes` episodes, several of them with the beginnings of the task in turn, and calls `on_step` after every step, which may end the evaluation.
 pub fn evaluate(
     environment: &mut Environment,
     agent: &mut dyn Agent,
@@ -152,6 +152,9 @@ pub fn evaluate_commanded(
     let mut overshoots = Vec::new();
     let mut results = Vec::new();
     'evaluation: for episode in 0..episodes {
+        if episodes > 1 {
+            environment.choose_start(episode.into());
+        }
         if let Some(command_at) = command_at {
             environment.steer(Some(command_at(0.0)));
         }

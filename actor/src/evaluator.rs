@@ -83,6 +83,7 @@ fn play(
         }
         // Every policy starts from the same states, so that differences between policies are their own.
         let seed = settings.run.seed.wrapping_add(u64::from(episode));
+        environment.choose_start(episode.into());
         all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| ControlFlow::Continue(()))?.episodes);
     }
     let (tracking, imitation) = (all.tracking(), all.imitation());

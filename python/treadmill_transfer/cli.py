@@ -161,7 +161,7 @@ def imitated(args, policy):
             episodes.append(episode)
             if not args.json:
                 done, bodies, turned = 100.0 * episode["done_share"], 100.0 * episode["body_error_m"], math.degrees(episode["body_error_rad"])
-                end = "fell" if episode["fell"] else "finished"
+                end = "fell" if episode["fell"] else "closed" if episode["closed"] else "finished"
                 print(f"{index + 1:>7} {episode['length']:>7} {done:>7.0f} {bodies:>10.1f} {turned:>11.1f}  {end}", flush=True)
             if shown.is_closed():
                 break

@@ -101,6 +101,9 @@ class Imitator:
         self.tables = Reference(policy).tables
         self.bodies = [self._body(path, name) for name in self.contract.body_names]
         self.anchor = self.contract.body_names.index(self.contract.anchor_body)
+        # The policy knows the base by its x axis, which points forward.
+        is_base = self.contract.anchor_body == self.contract.base_body
+        self._anchor_turn = self.contract.base_turn_wxyz if is_base else numpy.array([1.0, 0.0, 0.0, 0.0])
         self.ends = [self.contract.body_names.index(name) for name in self.contract.end_names]
         unknown = [name for name, _ in self.contract.observation if name not in _TERMS]
         if unknown:
@@ -160,7 +163,7 @@ class Imitator:
         distances = numpy.linalg.norm(places - moved, axis=1)
         angles = 2.0 * numpy.arccos(numpy.clip(numpy.abs((turns * moved_turns).sum(axis=1)), 0.0, 1.0))
         anchor_m = self.tables["body_pos_w"][self.row, self.anchor]
-        tilts = [_down(turn) for turn in (turns[self.anchor], self.tables["body_quat_w"][self.row, self.anchor])]
+        tilts = [_down(self._as_anchor(turn)) for turn in (turns[self.anchor], self.tables["body_quat_w"][self.row, self.anchor])]
         is_with = (
             is_finite
             and abs(places[self.anchor, 2] - anchor_m[2]) <= self.contract.anchor_height_max_m
@@ -188,12 +191,18 @@ class Imitator:
 
     def anchor_error(self):
         """Returns position and rotation matrix of the motion's anchor in the frame of the robot's."""
-        at, quat = self.data.xpos[self.bodies[self.anchor]], self.data.xquat[self.bodies[self.anchor]]
+        at, quat = self.data.xpos[self.bodies[self.anchor]], self._as_anchor(self.data.xquat[self.bodies[self.anchor]])
         back, place, turn, matrix = quat * [1.0, -1.0, -1.0, -1.0], numpy.empty(3), numpy.empty(4), numpy.empty(9)
         mujoco.mju_rotVecQuat(place, self.tables["body_pos_w"][self.row, self.anchor] - at, back)
-        mujoco.mju_mulQuat(turn, back, self.tables["body_quat_w"][self.row, self.anchor])
+        mujoco.mju_mulQuat(turn, back, self._as_anchor(self.tables["body_quat_w"][self.row, self.anchor]))
         mujoco.mju_quat2Mat(matrix, turn)
         return place, matrix.reshape(3, 3)
+
+    def _as_anchor(self, quat):
+        """Returns the orientation of the anchor that the policy knows from that of its body."""
+        turned = numpy.empty(4)
+        mujoco.mju_mulQuat(turned, numpy.ascontiguousarray(quat), self._anchor_turn)
+        return turned
 
     def further(self):
         """Returns the angles of the further steps that the policy sees."""
@@ -231,7 +240,10 @@ def compare(imitator, lines, tolerances):
     for line in lines:
         if line["episode"] != episode:
             episode, step = line["episode"], 0
-        motion = contract.motions[0]
+        number = line.get("motion", 0)
+        if not isinstance(number, int) or not 0 <= number < len(contract.motions):
+            raise TransferError(f"the trace has the motion {number!r}, the contract {len(contract.motions)} motions")
+        motion = contract.motions[number]
         imitator.row, imitator.last_row = motion["first_row"] + step, motion["first_row"] + motion["rows"] - 1
         step += 1
         imitator.robot.set_state(line["qpos"], line["qvel"])
@@ -259,19 +271,20 @@ def play_episode(imitator, seed, index, pushes=True, shown=None):
     motion = contract.motions[index % len(contract.motions)]
     imitator.reset(motion, of_start)
     pushing = Pushes(contract, of_pushes) if pushes else None
-    errors, is_with = [], True
+    errors, is_with, is_closed = [], True, False
     for step in range(motion["rows"]):
         push = pushing.before(step) if pushing else None
         if push is not None:
             imitator.robot.push(push)
         is_with, error = imitator.step()
         errors.append(error)
-        if not is_with or (shown and not shown()):
+        is_closed = bool(shown) and not shown()
+        if not is_with or is_closed:
             break
         imitator.row = min(imitator.row + 1, imitator.last_row)
     anchor_m, body_m, body_rad = numpy.mean(errors, axis=0)
-    done = len(errors) / motion["rows"] if not is_with else 1.0
-    return {"motion": motion["name"], "length": len(errors), "done_share": done, "fell": not is_with, "anchor_error_m": float(anchor_m),
+    done = len(errors) / motion["rows"] if not is_with or is_closed else 1.0
+    return {"motion": motion["name"], "length": len(errors), "done_share": done, "fell": not is_with, "closed": is_closed, "anchor_error_m": float(anchor_m),
             "body_error_m": float(body_m), "body_error_rad": float(body_rad)}
 
 
@@ -282,7 +295,7 @@ def summary(episodes):
     return {
         "episodes": len(episodes),
         "falls": sum(episode["fell"] for episode in episodes),
-        "finished": sum(not episode["fell"] for episode in episodes),
+        "finished": sum(not (episode["fell"] or episode["closed"]) for episode in episodes),
         "done_share": float(numpy.mean([episode["done_share"] for episode in episodes])),
         **{key: mean(key) for key in ("anchor_error_m", "body_error_m", "body_error_rad")},
     }

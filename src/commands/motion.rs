@@ -102,12 +102,20 @@ pub fn run(args: &MotionCommandArgs) -> anyhow::Result<()> {
     }
     if let Some(path) = &args.save {
         atomic_file::write(path, &write_npz(&found.motion, &mut physics, 1.0 / SAVED_HZ)?)?;
-        say(&format!("wrote {}", path.display()));
+        note(args, &format!("wrote {}", path.display()));
     }
     if let Some(path) = &args.film {
-        say(&film(args, path, &found.motion, &mut physics)?);
+        let line = film(args, path, &found.motion, &mut physics)?;
+        note(args, &line);
     }
     Ok(())
+}
+
+/// Prints a line about a file that was written, unless standard output is one JSON object.
+fn note(args: &MotionCommandArgs, line: &str) {
+    if !args.json {
+        say(line);
+    }
 }
 
 /// Writes a film of the motion and returns a line that describes it.

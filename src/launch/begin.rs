@@ -124,6 +124,7 @@ fn begin_built_in(
     if let Some(file) = file {
         model::examine(launcher.tasks, &config, &text, file)?;
     }
+    model::warn_of_unreachable(&environment);
     let networks = model::networks(&config, &environment)?;
     settings::choose(&mut config.ppo, &networks);
     if launcher.command == RunCommand::Train {

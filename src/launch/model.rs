@@ -11,7 +11,7 @@ use treadmill_humanoid::{
     Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry,
     card::Proposal,
     mjcf,
-    motion::{motions_of, with_motions},
+    motion::{Motion, motions_of, with_motions},
     read_model_file,
 };
 use treadmill_learner::checkpoint::TrainingState;
@@ -25,6 +25,9 @@ use crate::{
     launch::exit_code::Usage,
     shared::{model_file::ModelFileArgs, motion_file::MotionArgs},
 };
+
+/// Distance of a motion from the range of an action that is worth a warning (rad): gravity takes some of that range, too.
+const UNREACHABLE_RAD: f64 = 0.05;
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
@@ -148,6 +151,23 @@ pub fn with_given_motions(config: &Config, text: &str, given: &MotionArgs) -> Re
         return Err(Usage("the motion task needs a motion; give one: --motion FILE (docs/guide/motion.md)".to_owned()));
     }
     Ok(whole)
+}
+
+/// Warns of hinges whose motion the policy cannot reach, by the range of its actions around the default pose.
+pub fn warn_of_unreachable(environment: &Environment) {
+    let model = environment.physics().model();
+    for motor in &model.motors {
+        let [low, high] = motor.control;
+        let angles = || model.motions.iter().flat_map(Motion::frames).map(|frame| f64::from(frame[7 + motor.hinge]));
+        let beyond_rad = angles().map(|angle| (low - angle).max(angle - high)).fold(0.0, f64::max);
+        if beyond_rad > UNREACHABLE_RAD {
+            let name = &model.hinges[motor.hinge].name;
+            tracing::warn!(
+                "hinge `{name}` of the motion goes {beyond_rad:.2} rad beyond what actions can ask for, {low:.2} to {high:.2} \
+                 rad; raise its `action_scale_rad` in the robot card"
+            );
+        }
+    }
 }
 
 /// Refuses flags about a model file where none is given.

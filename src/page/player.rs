@@ -273,6 +273,7 @@ impl Player {
         self.step = 0;
         self.has_ended = false;
         let seed = seeds::derive(self.seed, "evaluation", &[self.episode - 1]);
+        self.environment.choose_start(self.episode - 1);
         self.environment.reset(seed, &mut self.observation);
         self.start_x_m = self.environment.physics().position()[0];
         self.agent.episode_ended();

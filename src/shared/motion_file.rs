@@ -1,6 +1,9 @@
 //! Flags about motions, and their files.
 
-use std::path::{Path, PathBuf};
+use std::{
+    ffi::OsStr,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use treadmill_humanoid::{
@@ -99,6 +102,13 @@ pub fn physics_of(text: &str) -> Result<Physics, Usage> {
 
 /// Returns a file, or the motion files of a folder in the order of their names.
 fn files(path: &Path) -> Result<Vec<PathBuf>, Usage> {
+    if path.join("checkpoints").is_dir() || path.extension().is_some_and(|ending| ending == "toml") {
+        let why = format!(
+            "--motion: `{}` is no motion; put it before --motion, which takes all that follows",
+            path.display()
+        );
+        return Err(Usage(why));
+    }
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
@@ -106,7 +116,8 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Usage> {
     let entries = path.read_dir().map_err(unreadable)?;
     let mut found =
         entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
-    found.retain(|file| file.extension().is_some_and(|ending| ending == "csv" || ending == "npz"));
+    let is_one_of = |ending: &OsStr| ["csv", "npz"].iter().any(|known| ending.eq_ignore_ascii_case(known));
+    found.retain(|file| file.extension().is_some_and(is_one_of));
     found.sort();
     match found.is_empty() {
         true => Err(Usage(format!("--motion {}: the folder has no .csv and no .npz file", path.display()))),

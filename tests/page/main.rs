@@ -86,7 +86,8 @@ fn the_imitated_motion_is_a_ghost_beside_the_robot() {
     let Some(mut browser) = Browser::start() else { return };
     motion::write_imitated_robot(folder.path());
     motion::write_motion(folder.path(), "squat.csv", 0.6);
-    let train = ["train", "--preset", "smoke", "--task", "motion", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
+    let train =
+        ["train", "--preset", "smoke", "--task", "motion", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
     let time = set(&["env.control_step_s=0.02", "env.substeps=5"]);
     let motion = ["--motion", "squat.csv", "--fps", "50", "--run-dir", run.to_str().unwrap()];
     done(folder.path(), &[&train[..], &time, &motion].concat());

@@ -323,6 +323,11 @@ impl Environment {
         self.task.adopt_curricula(reached, seed);
     }
 
+    /// Chooses which of several beginnings the next episodes have, see [`Task::choose_start`]; call [`Self::reset`] next.
+    pub fn choose_start(&mut self, number: u64) {
+        self.task.choose_start(number);
+    }
+
     /// Replaces the task's commands, see [`Task::steer`].
     pub fn steer(&mut self, command: Option<[f64; 3]>) -> bool {
         self.task.steer(command)

@@ -1,6 +1,7 @@
 //! Every step of an evaluation in a file, one JSON object per line.
 
 use std::{
+    any::Any,
     fs::File,
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
@@ -9,6 +10,7 @@ use std::{
 use anyhow::Context;
 use serde_json::json;
 use treadmill_actor::evaluation::EvaluationStep;
+use treadmill_humanoid::task::motion::MotionTask;
 
 /// Trace under way.
 pub struct Trace {
@@ -58,6 +60,10 @@ fn line(step: &EvaluationStep) -> serde_json::Value {
     });
     if let Some(command) = start.command {
         line["command"] = json!(command);
+    }
+    let task: &dyn Any = step.environment.task();
+    if let Some(task) = task.downcast_ref::<MotionTask>() {
+        line["motion"] = json!(task.motion());
     }
     if !step.ended.is_some_and(|played| played.fault) {
         line["torque"] = json!(step.environment.physics().joint_torques_nm());

@@ -45,9 +45,12 @@ impl Imitated {
                 let [angles, rates, places, turns, linear, angular] = &mut tables;
                 angles.extend(model.motors.iter().map(|motor| position[7 + motor.hinge] as f32));
                 rates.extend(model.motors.iter().map(|motor| velocity[6 + motor.hinge] as f32));
-                for link in links {
+                for (link, number) in links.zip(&compared.links) {
                     places.extend(link.pose.translation.vector.iter().map(|part| *part as f32));
-                    let turn = link.pose.rotation;
+                    // Players know the base of the file, see `Robot::forward`.
+                    let robot = model.robot.as_ref().filter(|_| *number == 0);
+                    let back = robot.map(|robot| robot.forward.turn().inverse()).unwrap_or_default();
+                    let turn = link.pose.rotation * back;
                     turns.extend([turn.w, turn.i, turn.j, turn.k].map(|part| part as f32));
                     linear.extend(link.linear_mps.iter().map(|part| *part as f32));
                     angular.extend(link.angular_radps.iter().map(|part| *part as f32));

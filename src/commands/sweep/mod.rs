@@ -43,6 +43,8 @@ use crate::{
     shared::existing_file::existing_file,
 };
 
+/// Batch of equivariant networks.
+const USUAL_BATCH: u32 = 2048;
 /// Seeds without a search file: two runs can agree by chance.
 const SEEDS: usize = 3;
 /// Most wrong settings that a message names.
@@ -114,6 +116,18 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
                     Usage(format!("`{root}` holds a sweep with the flags `{own}`; a sweep keeps its flags")).into()
                 );
             }
+            let file = read_file(args)?.map(|(_, text)| text);
+            let is_same = plan.file.as_ref().map(|(_, text)| text) == file.as_ref()
+                && plan.seeds == args.seeds.or(file.is_none().then_some(SEEDS))
+                && plan.settings == args.trials
+                && args.new.seed.is_none_or(|seed| seed == plan.seed);
+            if !is_same {
+                let root = root.display();
+                let why = format!(
+                    "`{root}` holds a sweep with another file, --seeds, --trials or --seed; a sweep keeps them"
+                );
+                return Err(Usage(why).into());
+            }
             (folder, plan)
         }
         (None, None) => begin_sweep(args, flags, tasks)?,
@@ -179,6 +193,9 @@ async fn train(
         return runner.run(plan, &unfinished, record).await;
     };
     loop {
+        if shutdown.asked() {
+            return Ok(Ended::Stopped);
+        }
         let boundary = population::boundary(plan.intervals + 1, interval_steps, plan.steps);
         let is_last = boundary >= plan.steps;
         runner.pause_at = Some(boundary);
@@ -207,6 +224,15 @@ async fn train(
     }
 }
 
+/// Returns name and text of the search file, if one is given.
+fn read_file(args: &SweepArgs) -> anyhow::Result<Option<(String, String)>> {
+    let read = |path: &PathBuf| -> anyhow::Result<(String, String)> {
+        let name = path.display().to_string();
+        Ok((name.clone(), fs::read_to_string(path).with_context(|| format!("cannot read `{name}`"))?))
+    };
+    args.file.as_ref().map(read).transpose()
+}
+
 /// Checks flags and file, and creates the folder of a new sweep with its plan.
 fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> anyhow::Result<(SweepFolder, Plan)> {
     if args.any.store.is_some() {
@@ -221,11 +247,7 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
     let source = begin::sources(launcher, &args.new, &args.any, &changes)?.source;
     let config = source.build()?;
     prepared::check_external(RunCommand::Train, &config, &args.any)?;
-    let read = |path: &PathBuf| -> anyhow::Result<(String, String)> {
-        let name = path.display().to_string();
-        Ok((name.clone(), fs::read_to_string(path).with_context(|| format!("cannot read `{name}`"))?))
-    };
-    let file = args.file.as_ref().map(read).transpose()?;
+    let file = read_file(args)?;
     let mut plan = Plan {
         started_in: std::env::current_dir().context("the working directory is unknown")?,
         flags,
@@ -241,6 +263,17 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
         trials: Vec::new(),
     };
     let search = plan.search()?;
+    if let Some(interval_steps) = search.interval_steps() {
+        // 0 is what suits the networks.
+        let batch = u64::from(if config.ppo.batch == 0 { USUAL_BATCH } else { config.ppo.batch });
+        if interval_steps < batch || interval_steps >= plan.steps {
+            let steps = plan.steps;
+            let why = format!(
+                "`interval_steps` is {interval_steps}; allowed: {batch}, a batch, to less than --steps, {steps}"
+            );
+            return Err(Usage(why).into());
+        }
+    }
     plan.goal = search.goal.clone().unwrap_or_else(|| Goal::of(&config, search.interval_steps().is_some())).to_string();
     plan.propose(&search);
     check_trials(&plan, &source, &changes)?;

@@ -129,6 +129,10 @@ impl SweepFolder {
         if root.join("checkpoints").exists() || root.join("trial-1").exists() {
             return Err(Usage(format!("`{shown}` already holds a run; choose another --run-dir")).into());
         }
+        if run_dir.is_none() && fs::create_dir_all("runs").is_ok() && fs::create_dir(&root).is_err() && root.exists() {
+            // Another sweep took the name meanwhile.
+            return Self::create(None);
+        }
         fs::create_dir_all(&root).with_context(|| format!("the folder `{shown}` cannot be created"))?;
         Self::lock(&root)
     }

@@ -14,6 +14,16 @@ const POPULATION_MIN: usize = 2;
 const TRIALS: usize = 8;
 const POPULATION: usize = 5;
 /// Entries of a search file.
+/// Keys beside those of `[env]` that a fork cannot change.
+const FORK_KEEPS: [&str; 7] = [
+    "policy.hidden",
+    "policy.init_log_std",
+    "ppo.symmetry",
+    "velocity.history",
+    "velocity.height_scan",
+    "motion.future_steps",
+    "motion.state_estimation",
+];
 const ENTRIES: [&str; 6] = ["strategy", "trials", "seeds", "goal", "interval_steps", "keys"];
 
 /// How the settings of trials are chosen.
@@ -137,6 +147,16 @@ impl SweepSearch {
         refuse(is_fixed && has_trials, "the strategy sets the number of trials; leave `trials` out");
         refuse(!is_population && has_interval, "only strategy \"population\" has `interval_steps`; leave it out");
         refuse(is_population && self.seeds > 1, "each member of a population has a seed of its own; leave `seeds` out");
+        let kept = |key: &str| key.starts_with("env.") || FORK_KEEPS.contains(&key);
+        let keeps = self.keys.iter().map(|(key, _)| key.as_str()).find(|key| is_population && kept(key));
+        if let Some(key) = keeps {
+            refuse(
+                true,
+                &format!(
+                    "`{key}` decides networks, observations or robot, which a fork keeps; search it by \"random\""
+                ),
+            );
+        }
         refuse(is_population && self.settings < POPULATION_MIN, "a population has at least 2 `trials`");
         let compares = self.goal.as_ref().is_none_or(Goal::is_value);
         refuse(is_population && !compares, "a population compares values; its `goal` begins with highest or lowest");

@@ -94,14 +94,19 @@ impl TrialRunner<'_> {
             let is_stopped = self.shutdown.asked() && !self.has_all_steps(plan, index);
             if is_stopped {
                 outcome = Ended::Stopped;
-            } else if status.code().is_none() && kills < KILLS_MAX {
-                tracing::warn!(trial = index + 1, %status, "a trial was killed; it goes on from its checkpoint");
+            } else if self.is_unfinished(plan, index, status.code()) && kills < KILLS_MAX {
+                tracing::warn!(trial = index + 1, %status, "a trial was killed or stopped; it goes on from its checkpoint");
                 queue.push_front((index, kills + 1));
             } else {
                 ended(plan, index, code(status))?;
             }
         }
         Ok(outcome)
+    }
+
+    /// Returns whether a trial ended before its steps without a failure: by a signal, or because it was asked to stop.
+    fn is_unfinished(&self, plan: &Plan, index: usize, code: Option<i32>) -> bool {
+        code.is_none() || code == Some(0) && !self.has_all_steps(plan, index)
     }
 
     /// Returns whether a trial that ended has all its steps.

@@ -59,7 +59,7 @@ pub(super) fn read(
         [] => fail("it is empty"),
         [b'P', b'K', 3 | 5, ..] => {
             if rate_hz.is_some() {
-                return fail("it has its own rate; leave --fps out");
+                return fail("it has its own rate; give none");
             }
             let archive = npz::read(bytes, hinges)?;
             let (rates, mut notices) = (archive.rates_radps, archive.notices);
@@ -89,7 +89,10 @@ pub(super) fn read(
             }
             let numbers = csv::read(text, hinges)?;
             let Some(rate_hz) = rate_hz else {
-                return fail("its rate is not in the file; give it: --fps 30 for Unitree's retargeted LAFAN1");
+                return fail(
+                    "its rate is not in the file; give it, as in --fps 30 for Unitree's retargeted LAFAN1 (--motion-fps where films have \
+                     an --fps)",
+                );
             };
             let rows = numbers.chunks_exact(ROOT + hinges);
             let unordered = Unordered {

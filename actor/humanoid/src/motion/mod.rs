@@ -36,6 +36,10 @@ const LENGTH_ERROR_MAX: f64 = 0.02;
 const ANGLE_MAX_RAD: f32 = 100.0;
 const DISTANCE_MAX_M: f32 = 1000.0;
 
+/// Most names in a message, and most characters of each.
+const NAMED_MAX: usize = 8;
+const NAME_CHARS_MAX: usize = 64;
+
 /// Motion that cannot be read or does not fit the robot.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
@@ -133,7 +137,8 @@ impl Motion {
             return Ok(self.clone());
         }
         let missing = |of: &[String], from: &[String]| -> Vec<String> {
-            of.iter().filter(|name| !from.contains(name)).map(|name| format!("`{name}`")).collect()
+            let missing = of.iter().filter(|name| !from.contains(name)).take(NAMED_MAX);
+            missing.map(|name| format!("`{}`", name.chars().take(NAME_CHARS_MAX).collect::<String>())).collect()
         };
         let (not_here, not_there) = (missing(hinges, &self.hinges), missing(&self.hinges, hinges));
         if !not_here.is_empty() || !not_there.is_empty() {

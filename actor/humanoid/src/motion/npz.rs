@@ -150,7 +150,8 @@ fn open<'a>(key: &str, bytes: &'a [u8]) -> Result<NpyFile<&'a [u8]>, MotionError
     }
     let each = file.dtype().num_bytes().unwrap_or(usize::MAX) as u64;
     let length = file.shape().iter().try_fold(each, |product, side| product.checked_mul(*side));
-    if length.is_none_or(|length| length > bytes.len() as u64) {
+    // Entries of no bytes take memory all the same.
+    if each == 0 || length.is_none_or(|length| length > bytes.len() as u64) {
         return fail(format!("is damaged: it is shorter than its shape {:?} says", file.shape()));
     }
     Ok(file)

@@ -10,6 +10,9 @@ use crate::mjcf::xml;
 /// Beginning of the names of the `<text>`s.
 const MOTION_TEXT: &str = "treadmill_motion_";
 
+/// Most hinges of a motion, more than any robot has.
+const HINGES_MAX: usize = 1000;
+
 /// Returns whether a node is the `<text>` of a motion.
 pub(crate) fn is_motion(node: &Node<'_, '_>) -> bool {
     node.attribute("name").is_some_and(|name| name.starts_with(MOTION_TEXT))
@@ -80,7 +83,9 @@ fn read(data: &str) -> Result<Motion, MotionError> {
     let name = next()?;
     let rate_hz = next()?.parse().map_err(|_| damaged())?;
     let count: usize = next()?.parse().map_err(|_| damaged())?;
-    // Collecting ends with the lines, so that a wrong count cannot reserve memory.
+    if count > HINGES_MAX {
+        return Err(damaged());
+    }
     let mut hinges = Vec::new();
     for _ in 0..count {
         hinges.push(next()?.to_owned());

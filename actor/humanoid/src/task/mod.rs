@@ -108,6 +108,9 @@ pub trait Task: Any + Send + Sync {
     /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
     fn start(&mut self, _seed: u64, _physics: &Physics, _start: Start<'_>) {}
 
+    /// Chooses, outside of training, which of several beginnings the next episodes have, as which of several motions.
+    fn choose_start(&mut self, _number: u64) {}
+
     /// Returns whether the lowest part of the robot begins each episode as high above the ground as in the default pose. The
     /// noise of the start, see `env.reset_noise_scale`, otherwise lifts robots, or sinks them into the ground, which throws
     /// them up.

@@ -39,7 +39,7 @@ impl Compared {
             "" => body.link(body.trunk()),
             name => find("motion.anchor", name)?,
         };
-        let limbs = body.limbs(model.links[anchor].body);
+        let limbs = body.limbs();
         let ends: Vec<usize> = match &config.end_effectors[..] {
             [] => limbs.iter().filter_map(|limb| limb.last()).map(|end| body.link(*end)).collect(),
             names => names.iter().map(|name| find("motion.end_effectors", name)).collect::<Result<_, _>>()?,
@@ -91,7 +91,8 @@ impl Shape<'_> {
     }
 
     /// Returns the limbs, each from where it begins at the base or the trunk to where it ends or branches.
-    fn limbs(&self, trunk: usize) -> Vec<Vec<usize>> {
+    fn limbs(&self) -> Vec<Vec<usize>> {
+        let trunk = self.trunk();
         let to_trunk: Vec<usize> = self.model.upward(trunk).collect();
         let mut from = vec![0, trunk];
         from.dedup();

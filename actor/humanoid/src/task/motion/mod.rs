@@ -35,8 +35,9 @@ use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::{LinkMotion, Physics};
 use crate::randomisation::{SensorNoise, stream};
 
-/// Numbers of the state beside actions: steps, step of the motion, where it failed last, and whether it did.
-const SAVED: usize = 4;
+/// Numbers of the state beside actions: steps, step of the motion, whether it failed, where it failed last and where the
+/// episode began.
+const SAVED: usize = 5;
 /// Greatest tilt of the anchor against the base in the default pose with which observations have a mirror image (rad).
 const TURNED_MAX_RAD: f64 = 1e-3;
 
@@ -60,6 +61,10 @@ pub struct MotionTask {
     step: usize,
     /// Control step at which this environment failed last, until it has come past it.
     failed: Option<usize>,
+    /// Motion with which episodes outside of training begin.
+    chosen: usize,
+    /// Control step at which the episode began.
+    began: usize,
     episode_steps: u32,
     actions: Vec<f64>,
     actions_before: Vec<f64>,
@@ -102,6 +107,8 @@ impl MotionTask {
             encoder_errors_rad: vec![0.0; model.hinges.len()],
             step: reference.motions[0].start + 1,
             failed: None,
+            chosen: 0,
+            began: reference.motions[0].start,
             episode_steps: 0,
             actions: vec![0.0; motors.len()],
             actions_before: vec![0.0; motors.len()],
@@ -118,11 +125,17 @@ impl MotionTask {
         &self.errors
     }
 
+    /// Returns the index of the motion in [`crate::Model::motions`].
+    #[must_use]
+    pub fn motion(&self) -> usize {
+        self.reference.motions.iter().position(|motion| motion.contains(&self.step)).unwrap_or_default()
+    }
+
     /// Returns the name of the motion, the time in it (s) and its duration (s).
     #[must_use]
     pub fn place(&self, physics: &Physics) -> (String, f64, f64) {
         let step_s = physics.settings().control_step_s;
-        let number = self.reference.motions.iter().position(|motion| motion.contains(&self.step)).unwrap_or_default();
+        let number = self.motion();
         let motion = &self.reference.motions[number];
         let seconds = |steps: usize| steps as f64 * step_s;
         let name = physics.model().motions[number].name.clone();
@@ -176,6 +189,10 @@ impl Task for MotionTask {
         self.begin_motion(seed, start);
     }
 
+    fn choose_start(&mut self, number: u64) {
+        self.chosen = (number % self.reference.motions.len() as u64) as usize;
+    }
+
     fn stays_above_ground(&self) -> bool {
         true
     }
@@ -220,7 +237,7 @@ impl Task for MotionTask {
         let is_last = self.step + 1 >= self.reference.motion_of(self.step).end;
         if has_failed {
             self.failed = Some(self.step);
-        } else if is_last || self.failed.is_some_and(|failed| self.has_passed(failed)) {
+        } else if self.failed.is_some_and(|failed| self.has_passed(failed)) {
             self.failed = None;
         }
         if !is_last {
@@ -244,7 +261,8 @@ impl Task for MotionTask {
 
     fn save(&self) -> Vec<f64> {
         let failed = self.failed.map_or([0.0, 0.0], |step| [1.0, step as f64]);
-        let numbers = [f64::from(self.episode_steps), self.step as f64].into_iter().chain(failed);
+        let numbers =
+            [f64::from(self.episode_steps), self.step as f64].into_iter().chain(failed).chain([self.began as f64]);
         numbers.chain(self.actions.iter().copied()).collect()
     }
 
@@ -258,6 +276,7 @@ impl Task for MotionTask {
         self.episode_steps = numbers[0] as u32;
         self.step = within(numbers[1]);
         self.failed = (numbers[2] != 0.0).then(|| within(numbers[3]));
+        self.began = within(numbers[4]);
         self.actions.copy_from_slice(&numbers[SAVED..]);
         Ok(())
     }

@@ -12,10 +12,12 @@ use crate::randomisation::{stream, uniform};
 use crate::task::Start;
 
 impl MotionTask {
-    /// Returns whether the robot has come past a failure: by as long as an episode may begin before one.
+    /// Returns whether the robot has come past a failure in this episode: by as long as an episode may begin before one, or to
+    /// the end of its motion.
     pub(super) fn has_passed(&self, failed: usize) -> bool {
         let motion = self.reference.motion_of(failed);
-        motion.contains(&self.step) && self.step >= (failed + self.lead_steps()).min(motion.end - 1)
+        let has_met = motion.contains(&self.began) && self.began <= failed;
+        has_met && self.step >= (failed + self.lead_steps()).min(motion.end - 1)
     }
 
     fn lead_steps(&self) -> usize {
@@ -25,8 +27,8 @@ impl MotionTask {
     /// Chooses where the next episode begins, and places the robot there, with an offset.
     pub(super) fn begin_motion(&mut self, seed: u64, start: Start<'_>) {
         let mut random = stream(seed, "start");
-        let first = self.first_step(seed, &mut random);
-        self.step = first + 1;
+        let first = self.first_step(&mut random);
+        (self.began, self.step) = (first, first + 1);
         let Start { position, velocity } = start;
         position.copy_from_slice(&self.reference.positions[first]);
         velocity.copy_from_slice(&self.reference.velocities[first]);
@@ -51,11 +53,11 @@ impl MotionTask {
         self.reference.clamp_to_ranges(&mut position[7..]);
     }
 
-    /// Returns the control step at which an episode begins: without training the first of one of the motions in turn.
-    fn first_step(&self, seed: u64, random: &mut impl Rng) -> usize {
+    /// Returns the control step at which an episode begins: outside of training the first of the chosen motion.
+    fn first_step(&self, random: &mut impl Rng) -> usize {
         let motions = &self.reference.motions;
         if !self.in_training {
-            return motions[(seed % motions.len() as u64) as usize].start;
+            return motions[self.chosen].start;
         }
         let is_uniform = random.random::<f64>() < self.config.uniform_share;
         if let Some(failed) = self.failed.filter(|_| !is_uniform) {
