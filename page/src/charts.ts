@@ -8,7 +8,12 @@ import { commonName, spread, type Curve } from "./seeds";
 const COMMON = ["rollout/fall_fraction", "rollout/ep_len_mean", "time/fps"];
 const OF_WALKERS = ["rollout/ep_rew_mean", "rollout/distance_mean_m", ...COMMON];
 const OF_COMMANDED = ["rollout/ep_rew_mean", "eval/velocity_error", "eval/yaw_rate_error", ...COMMON];
-const MARK_OF_COMMANDED = "rewards/track_linear_velocity";
+const OF_IMITATORS = ["rollout/ep_rew_mean", "eval/done_share", "eval/body_error", ...COMMON];
+/** Tags by which the curves of a task are known; first those that match. */
+const OF_TASKS = new Map([
+  ["rewards/track_linear_velocity", OF_COMMANDED],
+  ["rewards/motion_body_pos", OF_IMITATORS],
+]);
 /** Evaluations that are points on the curve of the same quantity. */
 const EVALUATED = new Map([
   ["rollout/ep_rew_mean", "eval/mean_reward"],
@@ -133,7 +138,7 @@ export class Charts {
 
   private layOut(): void {
     const all = [...this.curves.keys()];
-    const wanted = this.curves.has(MARK_OF_COMMANDED) ? OF_COMMANDED : OF_WALKERS;
+    const [, wanted] = [...OF_TASKS].find(([mark]) => this.curves.has(mark)) ?? ["", OF_WALKERS];
     const known = wanted.filter((tag) => this.curves.has(tag));
     const first = known.length > 0 ? known : all.slice(0, wanted.length);
     const tags = [...new Set([...first, ...this.added])].filter((tag) => this.curves.has(tag));

@@ -19,12 +19,16 @@ pub const DISTANCE: &str = "rollout/distance_mean_m";
 /// Metric tags of the errors in evaluations, in m/s and rad/s.
 pub const VELOCITY_ERROR: &str = "eval/velocity_error";
 pub const YAW_RATE_ERROR: &str = "eval/yaw_rate_error";
+/// Metric tags of how motions are imitated in evaluations: share that is done, error of the links in metres.
+pub const DONE_SHARE: &str = "eval/done_share";
+pub const BODY_ERROR: &str = "eval/body_error";
 /// Metric tag of the velocity, in m/s.
 pub const VELOCITY: &str = "rollout/velocity_mean_mps";
 /// Metric tag of the speed, in environment steps per second.
 pub const SPEED: &str = "time/fps";
 /// Tags of all curves, to which the dashboard subscribes.
-pub const CURVES: [&str; 6] = [RETURN, DISTANCE, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR, SPEED];
+pub const CURVES: [&str; 8] =
+    [RETURN, DISTANCE, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR, DONE_SHARE, BODY_ERROR, SPEED];
 
 /// State of one run.
 #[derive(Clone, Debug)]

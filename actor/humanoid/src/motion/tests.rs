@@ -246,6 +246,7 @@ fn archives_that_are_no_motions_are_refused_by_name() {
         (archive(&[("fps", &[1], vec![50.0])], &[("joint_pos", b"not npy")]), "`joint_pos` cannot be read"),
         (archive(&[("fps", &[1], vec![50.0])], &[("joint_pos", &pickled())]), "pickled Python objects"),
         (archive(&[("fps", &[1], vec![50.0])], &[("joint_pos", &too_short())]), "shorter than its shape"),
+        (archive(&[("fps", &[1], vec![50.0])], &[("joint_pos", &empty_texts())]), "shorter than its shape"),
         (b"PK\x03\x04 and no more".to_vec(), "no archive of NumPy"),
     ] {
         let why = read_archive(&bytes).unwrap_err();
@@ -261,6 +262,10 @@ fn npy(header: &str) -> Vec<u8> {
 
 fn pickled() -> Vec<u8> {
     npy("{'descr': '|O', 'fortran_order': False, 'shape': (2, 17), }")
+}
+
+fn empty_texts() -> Vec<u8> {
+    npy("{'descr': '<U0', 'fortran_order': False, 'shape': (1000000000000,), }")
 }
 
 fn too_short() -> Vec<u8> {

@@ -183,6 +183,24 @@ fn the_end_of_a_motion_is_a_truncation_and_episodes_without_training_begin_with_
 }
 
 #[test]
+fn evaluations_begin_with_each_motion_in_turn() {
+    let longer = Motion::new("other", 25.0, motion().hinges, motion().frames().flatten().copied().collect()).unwrap();
+    let config = EnvironmentConfig { has_curricula: false, ..config(exact()) };
+    let mut environment = Environment::new(&config, &model_with(&[motion(), longer])).unwrap();
+    let mut durations = Vec::new();
+    for number in 0..3 {
+        environment.choose_start(number);
+        reset(&mut environment, number);
+        let task: &dyn std::any::Any = environment.task();
+        let task: &MotionTask = task.downcast_ref().unwrap();
+        let (name, time_s, duration_s) = task.place(environment.physics());
+        assert!((time_s - STEP_S).abs() < 1e-9, "{name}: {time_s}");
+        durations.push((name, (duration_s * 100.0).round() as u32));
+    }
+    assert_eq!(durations, [("swing".to_owned(), 300), ("other".to_owned(), 600), ("swing".to_owned(), 300)]);
+}
+
+#[test]
 fn an_environment_goes_back_to_where_it_failed_until_it_has_come_past() {
     let never_uniform = MotionConfig { uniform_share: 0.0, lead_s: 0.5, ..exact() };
     let (mut task, mut physics, sampled) = task(&config(never_uniform));
@@ -209,6 +227,14 @@ fn an_environment_goes_back_to_where_it_failed_until_it_has_come_past() {
     // Up to 25 control steps before the failure at 82.
     let again: Vec<usize> = (0..200).map(|seed| begins(&mut task, &physics, seed)).collect();
     assert!(again.iter().all(|step| (57..82).contains(step)), "{again:?}");
+    // An episode that begins behind it does not end that.
+    let mut behind = task.save();
+    behind[1..5].copy_from_slice(&[120.0, 1.0, 82.0, 119.0]);
+    task.restore(&behind).unwrap();
+    for step in 120..151 {
+        assert!(!play(&mut task, &mut physics, step, 0.0));
+    }
+    assert!((0..50).all(|seed| (57..82).contains(&begins(&mut task, &physics, seed))));
     // It survives the saving, and ends when the robot has come past by as much.
     let saved = task.save();
     let first = begins(&mut task, &physics, 5);
@@ -295,6 +321,9 @@ fn what_is_missing_is_named() {
     let plain = include_str!("../../assets/g1-like-servos.xml");
     let motions = with_motions(plain, &[motion()]).unwrap();
     assert!(refused(&config(exact()), &motions).contains("needs a robot card"));
+    let long = Motion::new("long", 1.0, self::motion().hinges, self::motion().frames().flatten().copied().collect()).unwrap();
+    let why = refused(&config(exact()), &model_with(&vec![long; 60]));
+    assert!(why.contains("the motions have 450060 control steps; allowed: 400000"), "{why}");
     for (key, motion) in [
         ("motion.anchor", MotionConfig { anchor: "tail".into(), ..exact() }),
         ("motion.bodies", MotionConfig { bodies: vec!["tail".into()], ..exact() }),

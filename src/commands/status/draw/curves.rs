@@ -16,7 +16,7 @@ use super::{
     theme::{CURVE, QUIET, STRONG},
 };
 use crate::commands::status::{
-    fleet::{DISTANCE, RETURN, Run, SPEED, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR},
+    fleet::{BODY_ERROR, DISTANCE, DONE_SHARE, RETURN, Run, SPEED, VELOCITY, VELOCITY_ERROR, YAW_RATE_ERROR},
     history::Curve,
 };
 
@@ -27,7 +27,9 @@ const WIDE: u16 = 120;
 pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let is_wide = area.width >= WIDE;
-    let [first, second] = if status.has_commands {
+    let [first, second] = if let Some([done, error]) = imitated(run) {
+        [(DONE_SHARE, format!("done {done} of the motion")), (BODY_ERROR, format!("error {error} m"))]
+    } else if status.has_commands {
         let [velocity, yaw_rate] = errors(status);
         [(VELOCITY_ERROR, format!("error {velocity} m/s")), (YAW_RATE_ERROR, format!("error {yaw_rate} rad/s"))]
     } else {
@@ -47,6 +49,12 @@ pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
     for ((tag, title), area) in charts.into_iter().zip(areas.iter()) {
         curve(frame, *area, &run.curve(tag), title);
     }
+}
+
+/// Returns how a motion was done in the last evaluation, if the run imitates one.
+fn imitated(run: &Run) -> Option<[String; 2]> {
+    let last = |tag| run.curve(tag).points().last().map(|(_, value)| number(value));
+    Some([last(DONE_SHARE)?, last(BODY_ERROR)?])
 }
 
 /// Returns the errors of the velocity and the yaw rate.
@@ -92,7 +100,9 @@ pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
     pieces.push(format!("return {}", known(status.return_mean)), STRONG);
-    if status.has_commands {
+    if let Some([done, error]) = imitated(run) {
+        pieces.push(format!("{done} done, error {error} m"), STRONG);
+    } else if status.has_commands {
         let [velocity, yaw_rate] = errors(status);
         pieces.push(format!("errors {velocity} m/s {yaw_rate} rad/s"), STRONG);
     } else {
