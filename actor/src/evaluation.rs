@@ -123,7 +123,8 @@ impl Evaluation {
     }
 }
 
-/// Plays `episodes` episodes, several of them with the beginnings of the task in turn, and calls `on_step` after every step, which may end the evaluation.
+/// Plays `episodes` episodes, several of them with the beginnings of the task in turn, and calls `on_step` after every step,
+/// which may end the evaluation.
 pub fn evaluate(
     environment: &mut Environment,
     agent: &mut dyn Agent,

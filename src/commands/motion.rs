@@ -8,7 +8,7 @@ use treadmill_config::Config;
 use treadmill_humanoid::{
     Physics,
     mjcf::visual_meshes,
-    motion::{Motion, MotionFile, MotionReport, SampledMotion, write_npz},
+    motion::{MotionClip, MotionFile, MotionReport, SampledMotion, write_npz},
 };
 use treadmill_render::Look;
 use treadmill_runtime::atomic_file;
@@ -119,7 +119,7 @@ fn note(args: &MotionCommandArgs, line: &str) {
 }
 
 /// Writes a film of the motion and returns a line that describes it.
-fn film(args: &MotionCommandArgs, path: &Path, motion: &Motion, physics: &mut Physics) -> anyhow::Result<String> {
+fn film(args: &MotionCommandArgs, path: &Path, motion: &MotionClip, physics: &mut Physics) -> anyhow::Result<String> {
     // Nothing but a picture needs them.
     let meshes = args.model.as_ref().and_then(|file| visual_meshes(file, &args.files.files()).ok()).unwrap_or_default();
     let look = Look::of(physics.model(), &meshes);

@@ -5,8 +5,8 @@ use std::{net::SocketAddr, path::Path};
 
 use treadmill_bus::{Credentials, Role};
 use treadmill_config::{ChosenTask, Config};
-use treadmill_humanoid::{Model, motion::Motion, worlds_per_pass};
-use treadmill_learner::{checkpoint::TrainingState, metrics::Figures, training::TrainingSummary};
+use treadmill_humanoid::{Model, motion::MotionClip, worlds_per_pass};
+use treadmill_learner::{checkpoint::TrainingState, metrics::RunFigures, training::TrainingSummary};
 use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
@@ -121,7 +121,7 @@ fn robot(config: &Config, model_xml: &str) -> Option<String> {
 
 /// Describes the robot of a motion run.
 fn imitator(model: &Model) -> String {
-    let seconds: f64 = model.motions.iter().map(Motion::duration_s).sum();
+    let seconds: f64 = model.motions.iter().map(MotionClip::duration_s).sum();
     let motions = match &*model.motions {
         [motion] => format!("`{}`, {seconds:.1} s", motion.name),
         motions => format!("{} motions, {seconds:.1} s", motions.len()),
@@ -250,12 +250,12 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
         let (moved, best) = match summary.history.tracking_errors {
             Some([velocity, yaw]) => (format!("errors of {velocity:.2} m/s and {yaw:.2} rad/s"), String::new()),
             None => match (summary.history.figures, summary.history.imitated) {
-                (Figures::Imitation, Some([done, error_m])) => (
+                (RunFigures::Imitation, Some([done, error_m])) => (
                     format!("{:.0} % of the motion, links off by {:.1} cm", 100.0 * done, 100.0 * error_m),
                     String::new(),
                 ),
-                (Figures::Tracking | Figures::Imitation, _) => ("no evaluation yet".to_string(), String::new()),
-                (Figures::Distance, _) => {
+                (RunFigures::Tracking | RunFigures::Imitation, _) => ("no evaluation yet".to_string(), String::new()),
+                (RunFigures::Distance, _) => {
                     (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), best)
                 }
             },

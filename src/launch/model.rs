@@ -10,8 +10,8 @@ use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig, EnvTask};
 use treadmill_humanoid::{
     Environment, HUMANOID_XML, HomePose, Model, ModelError, TaskRegistry,
     card::Proposal,
-    mjcf,
-    motion::{Motion, motions_of, with_motions},
+    mjcf::{self, motions_of, with_motions},
+    motion::MotionClip,
     read_model_file,
 };
 use treadmill_learner::checkpoint::TrainingState;
@@ -158,7 +158,8 @@ pub fn warn_of_unreachable(environment: &Environment) {
     let model = environment.physics().model();
     for motor in &model.motors {
         let [low, high] = motor.control;
-        let angles = || model.motions.iter().flat_map(Motion::frames).map(|frame| f64::from(frame[7 + motor.hinge]));
+        let angles =
+            || model.motions.iter().flat_map(MotionClip::frames).map(|frame| f64::from(frame[7 + motor.hinge]));
         let beyond_rad = angles().map(|angle| (low - angle).max(angle - high)).fold(0.0, f64::max);
         if beyond_rad > UNREACHABLE_RAD {
             let name = &model.hinges[motor.hinge].name;

@@ -35,8 +35,8 @@ pub struct NewRunArgs {
     /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Task: humanoid-v5, humanoid-v4, velocity, motion, `external` for the task that the first actor registers, or the name of
-    /// such a task, with a slash, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
+    /// Task: humanoid-v5, humanoid-v4, velocity, motion, `external` for the task that the first actor registers, or the name
+    /// of such a task, with a slash, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
     #[arg(long, value_name = "NAME")]
     pub task: Option<String>,
     /// Seed of every random stream.

@@ -8,7 +8,8 @@ use std::{
 use clap::Args;
 use treadmill_humanoid::{
     Model, Physics, PhysicsSettings,
-    motion::{Motion, MotionFile, motions_of, read_motion_file, with_motions},
+    mjcf::{motions_of, with_motions},
+    motion::{MotionClip, MotionFile, read_motion_file},
 };
 
 use crate::launch::exit_code::Usage;
@@ -41,7 +42,7 @@ impl MotionArgs {
         let whole = with_motions(text, &motions).map_err(|why| Usage(why.to_string()))?;
         // Checks the length that a model may have.
         Model::from_mjcf(&whole).map_err(|why| {
-            let (mib, seconds) = (whole.len() >> 20, motions.iter().map(Motion::duration_s).sum::<f64>());
+            let (mib, seconds) = (whole.len() >> 20, motions.iter().map(MotionClip::duration_s).sum::<f64>());
             Usage(format!(
                 "--motion: {seconds:.0} s of motions with the model take {mib} MiB: {why}; give fewer of them"
             ))
@@ -65,7 +66,7 @@ impl MotionArgs {
     }
 
     /// Reads the motions for the robot of a model text.
-    fn read(&self, text: &str) -> Result<Vec<Motion>, Usage> {
+    fn read(&self, text: &str) -> Result<Vec<MotionClip>, Usage> {
         let mut physics = physics_of(text)?;
         let files = self.motion.iter().map(|path| files(path)).collect::<Result<Vec<_>, _>>()?.concat();
         if files.len() > FILES_MAX {

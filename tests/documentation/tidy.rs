@@ -7,17 +7,17 @@ use std::{
 };
 
 /// Most words of a page.
-const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2000), ("CHANGELOG.md", 600)];
+const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2030), ("CHANGELOG.md", 680)];
 /// Most words of all pages together, generated ones included.
-const ALL_WORDS_MAX: usize = 36_600;
+const ALL_WORDS_MAX: usize = 38_600;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [99_300, 66_300];
+const RUST_LINES_MAX: [usize; 2] = [106_500, 72_300];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
-const FILES_MAX: usize = 1_060;
+const FILES_MAX: usize = 1_100;
 /// Most characters of a line of a comment.
 const LINE_CHARS_MAX: usize = 125;
 /// Words and phrases in place of a concrete subject or verb.

@@ -1,5 +1,5 @@
-//! The tutorial and the guides to sweeps and motions: their commands run as printed, with shorter trainings. Parts in Python, on several
-//! hosts and in the browser have tests of their own.
+//! The tutorial and the guides to sweeps and motions: their commands run as printed, with shorter trainings. Parts in
+//! Python, on several hosts and in the browser have tests of their own.
 
 use std::{fs, path::Path, process::Command};
 

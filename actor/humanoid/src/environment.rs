@@ -1,6 +1,7 @@
 //! One humanoid's episodes: reset, step, observation, faults.
 
 mod saved;
+mod start;
 mod vector;
 
 use std::any::Any;
@@ -10,6 +11,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
+use self::start::start;
 pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
 use crate::clearance;
 use crate::config::{ChosenTask, EnvironmentConfig};
@@ -18,7 +20,7 @@ use crate::info::StepInfo;
 use crate::model::Model;
 use crate::physics::Physics;
 use crate::randomisation::{Randomiser, SensorNoise};
-use crate::task::{HumanoidTask, ObservationTerm, Reached, Start, Step, StepOutcome, Task, TaskRegistry};
+use crate::task::{EpisodeStart, HumanoidTask, ObservationTerm, Reached, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
 
 /// Reinforcement-learning environment of one humanoid.
@@ -173,7 +175,7 @@ impl Environment {
         for (start, nominal) in self.start_velocity.iter_mut().zip(&self.nominal_velocity) {
             *start = nominal + uniform_noise(&mut random, scale);
         }
-        let start = Start { position: &mut self.start_position, velocity: &mut self.start_velocity };
+        let start = EpisodeStart { position: &mut self.start_position, velocity: &mut self.start_velocity };
         self.task.start(seed, &self.physics, start);
         self.seed = Some(seed);
         self.randomiser.begin_episode(seed, &mut self.physics);
@@ -389,21 +391,6 @@ impl Environment {
 fn gymnasium_info(task: &dyn Task) -> Option<StepInfo> {
     let task: &dyn Any = task;
     task.downcast_ref().map(HumanoidTask::info)
-}
-
-/// Returns the state at which episodes start: that of a keyframe, or the nominal pose at rest for an empty name.
-fn start(model: &Model, keyframe: &str) -> Result<(Vec<f64>, Vec<f64>), ModelError> {
-    if keyframe.is_empty() {
-        let of_card = model.robot.as_ref().map(|robot| robot.default_position.clone());
-        return Ok((of_card.unwrap_or_else(|| model.nominal_position()), vec![0.0; model.velocity_size()]));
-    }
-    match model.keyframes.iter().find(|known| known.name == keyframe) {
-        Some(found) => Ok((found.position.clone(), found.velocity.clone())),
-        None => {
-            let known: Vec<&str> = model.keyframes.iter().map(|known| known.name.as_str()).collect();
-            Err(ModelError::Keyframe { name: keyframe.to_owned(), known: known.join(", ") })
-        }
-    }
 }
 
 /// Draws a number from [−scale, scale).

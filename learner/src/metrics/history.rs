@@ -37,7 +37,7 @@ pub struct History {
     /// Greatest mean distance of an evaluation, in metres.
     pub evaluated_best_m: Option<f64>,
     /// What counts beside the return.
-    pub figures: Figures,
+    pub figures: RunFigures,
     /// Errors of the velocity (m/s) and the yaw rate (rad/s) in the last evaluation, of a task with commands.
     pub tracking_errors: Option<[f64; 2]>,
     /// Share of a motion that was done, and error of the links (m), in the last evaluation of a motion task.
@@ -46,7 +46,7 @@ pub struct History {
 
 /// What counts beside the return.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Figures {
+pub enum RunFigures {
     /// Distance.
     #[default]
     Distance,

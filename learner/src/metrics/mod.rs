@@ -46,7 +46,7 @@ pub use curve::{CurveError, CurveFacts, draw_curve};
 pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use films::{FilmOfPolicy, FilmSlot};
-pub use history::{Figures, History};
+pub use history::{History, RunFigures};
 pub use jsonl::JsonLines;
 pub use parts::{PARTS, PartMeter, PartTimes, TrainingPart};
 pub use progress::{Console, ConsoleOptions};

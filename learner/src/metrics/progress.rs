@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use treadmill_runtime::{machine, numbers::thousands};
 
 use super::table::{important, render_line, render_table};
-use super::{Figures, History, Scalars, history::Point, sparkline::sparkline};
+use super::{History, RunFigures, Scalars, history::Point, sparkline::sparkline};
 
 /// Interval between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
@@ -225,9 +225,9 @@ fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars, histor
         known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
         match history.figures {
-            Figures::Tracking => obeyed(history),
-            Figures::Imitation => imitated(history),
-            Figures::Distance => {
+            RunFigures::Tracking => obeyed(history),
+            RunFigures::Imitation => imitated(history),
+            RunFigures::Distance => {
                 known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1)))
             }
         },
@@ -265,9 +265,11 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     };
     let returns = curve(|point| point.return_mean, None, 0, "")?;
     let moved = match history.figures {
-        Figures::Tracking => obeyed(history),
-        Figures::Imitation => imitated(history),
-        Figures::Distance => Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?)),
+        RunFigures::Tracking => obeyed(history),
+        RunFigures::Imitation => imitated(history),
+        RunFigures::Distance => {
+            Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?))
+        }
     };
     Some(std::iter::once(format!("return {returns}")).chain(moved).collect::<Vec<_>>().join(", "))
 }

@@ -155,7 +155,7 @@ fn errors_stand_for_distances_where_the_task_has_commands() {
     let scalars = [("rollout/ep_rew_mean", 412.3), ("rollout/distance_mean_m", 5.0), ("rollout/fall_fraction", 0.9)];
     let scalars = scalars.map(|(tag, value)| (tag.to_string(), value));
     let mut history = History::default();
-    history.figures = Figures::Tracking;
+    history.figures = RunFigures::Tracking;
     history.add(Some(412.3), Some(5.0), None);
     let text = |history: &History| line(1, 2, "1 steps/s", &scalars, history);
     assert_eq!(text(&history), "1 of 2 steps (50.0 %), 1 steps/s; return 412, falls 90 %");

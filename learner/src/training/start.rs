@@ -8,7 +8,7 @@ use super::{Learning, Reporting, Serving, Trainer, TrainingError, TrainingOption
 use crate::{
     checkpoint::TrainingState,
     leadership::Leadership,
-    metrics::{Figures, History, MetricsReport},
+    metrics::{History, MetricsReport, RunFigures},
     waiting::{PendingWrites, Retry},
 };
 
@@ -36,9 +36,9 @@ impl Trainer {
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let mut history = History::read(&options.folder.metrics())?;
         history.figures = match config.env.chosen_task() {
-            ChosenTask::Velocity => Figures::Tracking,
-            ChosenTask::Motion => Figures::Imitation,
-            _ => Figures::Distance,
+            ChosenTask::Velocity => RunFigures::Tracking,
+            ChosenTask::Motion => RunFigures::Imitation,
+            _ => RunFigures::Distance,
         };
         let (serving, stats) = Serving::open(bus, &state, &grown, options, storage, pending)?;
         let reporting = Reporting::new(report, history, stats, &state, options, retry)?;

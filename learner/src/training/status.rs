@@ -9,7 +9,7 @@ use treadmill_runtime::{machine, program};
 use super::Trainer;
 use crate::{
     checkpoint::TrainingState,
-    metrics::{Figures, PARTS, PartTimes},
+    metrics::{PARTS, PartTimes, RunFigures},
 };
 
 /// Longest interval between two publications of the status while the learner waits.
@@ -62,7 +62,7 @@ impl Trainer {
             distance_mean_m: means.map(|means| means.distance_mean_m),
             velocity_mean_mps: means.map(|means| means.velocity_mean_mps),
             fall_fraction: means.map(|means| means.fall_fraction),
-            has_commands: reporting.history.figures == Figures::Tracking,
+            has_commands: reporting.history.figures == RunFigures::Tracking,
             velocity_error_mps: reporting.history.tracking_errors.map(|[velocity, _]| velocity),
             yaw_rate_error_radps: reporting.history.tracking_errors.map(|[_, yaw_rate]| yaw_rate),
             policy_lag_mean: reporting.lag_mean,

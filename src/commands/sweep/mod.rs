@@ -21,6 +21,7 @@ use anyhow::Context;
 use clap::{Arg, ArgAction, Args, parser::ValueSource};
 use treadmill_config::{Config, ConfigSource, given_value};
 use treadmill_humanoid::TaskRegistry;
+use treadmill_ppo::BatchSize;
 use treadmill_runtime::{machine, shutdown::Shutdown, words::quoted};
 
 use self::{
@@ -43,8 +44,6 @@ use crate::{
     shared::existing_file::existing_file,
 };
 
-/// Batch of equivariant networks.
-const USUAL_BATCH: u32 = 2048;
 /// Seeds without a search file: two runs can agree by chance.
 const SEEDS: usize = 3;
 /// Most wrong settings that a message names.
@@ -264,8 +263,7 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
     };
     let search = plan.search()?;
     if let Some(interval_steps) = search.interval_steps() {
-        // 0 is what suits the networks.
-        let batch = u64::from(if config.ppo.batch == 0 { USUAL_BATCH } else { config.ppo.batch });
+        let batch = BatchSize::of(&config.ppo).transitions as u64;
         if interval_steps < batch || interval_steps >= plan.steps {
             let steps = plan.steps;
             let why = format!(

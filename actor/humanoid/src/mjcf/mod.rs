@@ -13,7 +13,7 @@
 //! - `compose`: `<replicate>` and `<attach>`.
 //! - `urdf`: URDF → MJCF text.
 //! - `notices`: what was read differently, what MuJoCo refuses, and what is ignored.
-//! - `card_text`: a robot card within a text.
+//! - `card_text`, `motion_text`: a robot card and motions within a text.
 
 mod assets;
 pub(crate) mod card_text;
@@ -28,6 +28,7 @@ mod geoms;
 mod joints;
 mod keyframes;
 mod mass;
+mod motion_text;
 mod motors;
 mod notices;
 mod order;
@@ -39,12 +40,13 @@ mod tree;
 mod urdf;
 mod visual;
 mod vocabulary;
-pub(crate) mod xml;
+mod xml;
 
 use std::collections::BTreeMap;
 
 pub use self::card_text::{card_of, with_built_in, with_card};
 pub use self::embed::read_model_file;
+pub use self::motion_text::{motions_of, with_motions};
 pub use self::order::in_order_of;
 pub use self::urdf::ModelFiles;
 pub use self::visual::{VisualMesh, visual_meshes};

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use roxmltree::{Document, Node};
 
 use super::element::Attribute;
+use super::motion_text::is_motion;
 use super::vocabulary::is_inert;
 use super::xml::{self, elements, sections};
 use super::{assets, card_text};
-use crate::motion::is_motion;
 
 /// Name of a `<text>` in `<custom>` that holds a note.
 const NOTICE: &str = "treadmill_notice";

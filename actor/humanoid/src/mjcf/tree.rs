@@ -9,13 +9,14 @@ use super::assets::Assets;
 use super::card_text;
 use super::defaults::{ACTUATORS, Classes};
 use super::element::{Element, numbers};
+use super::motion_text;
 use super::pose::{Angles, Pose};
 use super::vocabulary::{self, is_inert};
 use super::xml::{elements, sections};
 use crate::card::RobotCard;
 use crate::error::ModelError;
+use crate::model::MotionClip;
 use crate::model::Solver;
-use crate::motion::{self, Motion};
 
 /// Everything in a text that motion depends on.
 pub(super) struct Tree {
@@ -36,7 +37,7 @@ pub(super) struct Tree {
     pub(super) assets: Assets,
     pub(super) card: Option<RobotCard>,
     /// Motions.
-    pub(super) motions: Vec<Motion>,
+    pub(super) motions: Vec<MotionClip>,
 }
 
 /// Site, which only an equality may need.
@@ -125,7 +126,7 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
         keys: Vec::new(),
         assets: Assets::default(),
         card: card_text::in_document(document)?,
-        motions: motion::in_document(document)?,
+        motions: motion_text::in_document(document)?,
     };
     for asset in sections(root, "asset").flat_map(elements).filter(|asset| !is_inert(asset.tag_name().name())) {
         tree.assets.read(asset, &builder.classes)?;

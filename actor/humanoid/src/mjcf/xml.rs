@@ -23,7 +23,7 @@ pub(super) fn parse_model(text: &str) -> Result<Document<'_>, ModelError> {
 }
 
 /// Parses any XML text.
-pub(crate) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
+pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
     if text.len() > MODEL_BYTES_MAX {
         return Err(ModelError::TooLarge { bytes: text.len() as u64, limit: MODEL_BYTES_MAX as u64 });
     }
@@ -37,24 +37,24 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
 }
 
 /// Returns the outermost sections of a kind.
-pub(crate) fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
+pub(super) fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
     elements(root).filter(move |node| node.has_tag_name(tag))
 }
 
 /// Returns the elements within another.
-pub(crate) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
+pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
     node.children().filter(Node::is_element)
 }
 
 /// Returns a model text with more elements in a `<custom>`, which MuJoCo ignores.
-pub(crate) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
+pub(super) fn with_custom(text: &str, elements: &str) -> Result<String, ModelError> {
     let root = parse_model(text)?.root_element().range();
     let end = text[..root.end].rfind("</").unwrap_or(root.end);
     Ok(format!("{}<custom>{elements}</custom>\n{}", &text[..end], &text[end..]))
 }
 
 /// Writes an element without content.
-pub(crate) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
+pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
     open(text, tag, attributes);
     let _ = writeln!(text, "</{tag}>");
 }

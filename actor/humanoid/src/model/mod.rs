@@ -10,6 +10,7 @@ pub(crate) mod hull;
 pub(crate) mod inertia;
 pub mod mirror;
 pub(crate) mod moments;
+mod motion;
 mod pair;
 mod quantity;
 mod robot;
@@ -24,6 +25,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 pub use self::equality::{Connection, Coupling};
 pub use self::geometry::Geometry;
 pub use self::ground::{Ground, HEIGHT_FIELD_SIDE_MAX, HeightField};
+pub use self::motion::{MotionClip, MotionError};
 pub use self::pair::{Pair, ShapeIndex};
 pub(crate) use self::quantity::{length, not_negative};
 pub(crate) use self::robot::counterpart;
@@ -31,8 +33,6 @@ pub use self::robot::{HingeControl, Robot};
 pub use self::softness::Softness;
 pub(crate) use self::softness::SolverNumbers;
 pub use self::turn::BaseAxis;
-
-use crate::motion::Motion;
 
 /// Most tendons; a bound because every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;
@@ -79,7 +79,7 @@ pub struct Model {
     /// What the robot's card says, if the text has one.
     pub robot: Option<Robot>,
     /// Motions to imitate, if the text has some.
-    pub motions: Arc<[Motion]>,
+    pub motions: Arc<[MotionClip]>,
     /// What is simulated more simply than the text says.
     pub simplifications: Vec<String>,
 }

@@ -1,15 +1,13 @@
-//! Motion files, told apart by their content.
+//! Motion files, known by their content.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::order::{Ordered, Unordered};
-use super::{Motion, MotionError, ROOT, SampledMotion, csv, npz};
+use super::{MOTION_FILE_BYTES_MAX, MotionClip, MotionError, ROOT, SampledMotion, csv, npz};
 use crate::physics::Physics;
 
-/// Longest file, and longest arrays of one (bytes).
-pub const MOTION_FILE_BYTES_MAX: u64 = 256 << 20;
 /// Share of frames in which a quaternion that is read in the other order would make the robot upright, from which it is
 /// taken for such a one.
 const UPRIGHT_SHARE: f64 = 0.9;
@@ -20,7 +18,7 @@ const UPRIGHT: f64 = 0.8;
 #[derive(Clone, Debug)]
 pub struct MotionFile {
     /// Motion, with its hinges in the robot's order.
-    pub motion: Motion,
+    pub motion: MotionClip,
     /// Format.
     pub format: &'static str,
     /// Order of hinges and bodies in the file, and how it was found.
@@ -130,7 +128,7 @@ fn check_upright(roots: &[f64]) -> Result<(), MotionError> {
 }
 
 /// Returns a notice if the file's rates are not the derivatives of its angles.
-fn differing_rates(motion: &Motion, rates_radps: &[f64]) -> Option<String> {
+fn differing_rates(motion: &MotionClip, rates_radps: &[f64]) -> Option<String> {
     let sampled = SampledMotion::new(motion, 1.0 / motion.rate_hz);
     let own: Vec<f64> = sampled.velocities.iter().flat_map(|velocity| velocity[6..].iter().copied()).collect();
     if own.len() != rates_radps.len() {

@@ -6,9 +6,8 @@ use nalgebra::UnitQuaternion;
 use npyz::{DType, NpyFile, Order, TypeChar, WriterBuilder};
 use zip::{CompressionMethod, ZipArchive, ZipWriter, write::SimpleFileOptions};
 
-use super::file::MOTION_FILE_BYTES_MAX;
 use super::order::{BodyPoses, Unordered};
-use super::{Motion, MotionError, ROOT, SampledMotion};
+use super::{MOTION_FILE_BYTES_MAX, MotionClip, MotionError, ROOT, SampledMotion};
 use crate::physics::Physics;
 
 /// Most arrays of an archive.
@@ -194,7 +193,7 @@ fn texts(key: &str, bytes: &[u8]) -> Result<Vec<String>, MotionError> {
 ///
 /// # Errors
 /// [`MotionError`] if writing fails.
-pub fn write_npz(motion: &Motion, physics: &mut Physics, step_s: f64) -> Result<Vec<u8>, MotionError> {
+pub fn write_npz(motion: &MotionClip, physics: &mut Physics, step_s: f64) -> Result<Vec<u8>, MotionError> {
     let sampled = SampledMotion::new(motion, step_s);
     let frames = sampled.positions.len() as u64;
     let (links, hinges) = (physics.model().links.len() as u64, motion.hinges.len() as u64);

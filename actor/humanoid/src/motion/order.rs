@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Quaternion, Vector3};
 
-use super::{Motion, MotionError, ROOT};
+use super::{MotionClip, MotionError, ROOT};
 use crate::model::Model;
 use crate::physics::Physics;
 
@@ -42,7 +42,7 @@ pub(super) struct Unordered {
 /// Motion in the robot's order, and how that was found.
 pub(super) struct Ordered {
     /// Motion.
-    pub motion: Motion,
+    pub motion: MotionClip,
     /// Order of the file.
     pub order: String,
 }
@@ -124,10 +124,10 @@ impl Unordered {
         }
     }
 
-    fn named(&self, name: &str, rate_hz: f64, hinges: &[String]) -> Result<Motion, MotionError> {
+    fn named(&self, name: &str, rate_hz: f64, hinges: &[String]) -> Result<MotionClip, MotionError> {
         let frames = self.roots.chunks_exact(ROOT).zip(self.angles_rad.chunks_exact(self.hinges.max(1)));
         let frames = frames.flat_map(|(root, angles)| root.iter().chain(angles)).map(|number| *number as f32);
-        Motion::new(name, rate_hz, hinges.to_vec(), frames.collect())
+        MotionClip::new(name, rate_hz, hinges.to_vec(), frames.collect())
     }
 }
 
@@ -153,7 +153,7 @@ fn links_in_order(model: &Model, count: usize, is_breadth_first: bool) -> Option
 }
 
 /// Returns the greatest distance of a link from where the file has it (m).
-fn apart_m(motion: &Motion, poses: &BodyPoses, links: &[Option<usize>], physics: &mut Physics) -> f64 {
+fn apart_m(motion: &MotionClip, poses: &BodyPoses, links: &[Option<usize>], physics: &mut Physics) -> f64 {
     let rest = vec![0.0; physics.model().velocity_size()];
     let every = motion.len().div_ceil(COMPARED);
     let mut largest_m = 0.0_f64;

@@ -1,6 +1,6 @@
 //! What a motion asks of a robot.
 
-use super::{Motion, ROOT, SampledMotion};
+use super::{MotionClip, ROOT, SampledMotion};
 use crate::clearance;
 use crate::physics::Physics;
 
@@ -45,7 +45,7 @@ pub struct MotionReport {
 impl MotionReport {
     /// Returns the report of a motion of the robot that `physics` simulates, frame by frame.
     #[must_use]
-    pub fn of(motion: &Motion, physics: &mut Physics) -> Self {
+    pub fn of(motion: &MotionClip, physics: &mut Physics) -> Self {
         let sampled = SampledMotion::new(motion, 1.0 / motion.rate_hz);
         let frames = sampled.positions.len();
         let mut report = Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::{Motion, ROOT};
+use super::{MotionClip, ROOT};
 
 /// Poses and velocities of a motion, one for each control step.
 ///
@@ -21,7 +21,7 @@ pub struct SampledMotion {
 impl SampledMotion {
     /// Returns a motion at control steps of this length (s).
     #[must_use]
-    pub fn new(motion: &Motion, step_s: f64) -> Self {
+    pub fn new(motion: &MotionClip, step_s: f64) -> Self {
         let frames: Vec<Vec<f64>> =
             motion.frames().map(|frame| frame.iter().map(|number| f64::from(*number)).collect()).collect();
         // The last frame counts although its time may be rounded.

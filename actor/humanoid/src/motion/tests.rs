@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
 use super::*;
-use crate::mjcf::HUMANOID_XML;
+use crate::mjcf::{HUMANOID_XML, motions_of, with_motions};
 use crate::{Model, Physics, PhysicsSettings};
 
 fn physics() -> Physics {
@@ -28,11 +28,11 @@ fn frames(hinges: usize, count: usize, rate_hz: f64) -> Vec<f32> {
     (0..count).flat_map(frame).collect()
 }
 
-fn swinging() -> Motion {
+fn swinging() -> MotionClip {
     let physics = physics();
     let hinges = names(&physics);
     let frames = frames(hinges.len(), 101, 50.0);
-    Motion::new("swing", 50.0, hinges, frames).unwrap()
+    MotionClip::new("swing", 50.0, hinges, frames).unwrap()
 }
 
 #[test]
@@ -61,7 +61,8 @@ fn sampled_positions_and_velocities_are_those_of_the_curve() {
 #[test]
 fn motions_travel_in_the_text_of_their_model_and_follow_its_hinges() {
     let motion = swinging();
-    let other = Motion { name: "a <b> & \"c\"".into(), ..motion.clone() };
+    let other = motion.frames().flatten().copied().collect();
+    let other = MotionClip::new("a <b> & \"c\"", 50.0, motion.hinges.clone(), other).unwrap();
     let text = with_motions(HUMANOID_XML, &[motion.clone(), other.clone()]).unwrap();
     assert_eq!(motions_of(&text).unwrap(), [motion.clone(), other]);
     assert_eq!(&Model::from_mjcf(&text).unwrap().motions[0], &motion);
@@ -95,7 +96,7 @@ fn numbers_that_no_motion_has_are_refused_by_name() {
     let refused = |rate_hz: f64, change: &dyn Fn(&mut Vec<f32>)| {
         let mut frames = sound.clone();
         change(&mut frames);
-        Motion::new("m", rate_hz, hinges.clone(), frames).unwrap_err().to_string()
+        MotionClip::new("m", rate_hz, hinges.clone(), frames).unwrap_err().to_string()
     };
     assert!(refused(50.0, &|all| all[25] = f32::NAN).contains("frame 1, at 0.02 s: entry 1 is not a finite number"));
     assert!(refused(50.0, &|all| all[3] = 2.0).contains("the quaternion of the root has length 2.000"));
@@ -104,7 +105,7 @@ fn numbers_that_no_motion_has_are_refused_by_name() {
     assert!(refused(0.0, &|_| ()).contains("its rate is 0"));
     assert!(refused(50.0, &|all| all.truncate(30)).contains("frames; at least 3 are needed"));
     let long = frames(1, 1300, 1.0);
-    let why = Motion::new("m", 1.0, vec!["h".into()], long).unwrap_err().to_string();
+    let why = MotionClip::new("m", 1.0, vec!["h".into()], long).unwrap_err().to_string();
     assert!(why.contains("it lasts 1299 s; allowed: 1200 s"), "{why}");
 }
 
@@ -279,7 +280,7 @@ fn a_report_names_hinges_beyond_their_range_and_jumps() {
     let mut frames = frames(hinges.len(), 50, 50.0);
     let (width, knee) = (7 + hinges.len(), hinges.iter().position(|name| name.contains("knee")).unwrap());
     frames[20 * width + 7 + knee] = PI as f32;
-    let motion = Motion::new("m", 50.0, hinges.clone(), frames).unwrap();
+    let motion = MotionClip::new("m", 50.0, hinges.clone(), frames).unwrap();
     let report = MotionReport::of(&motion, &mut physics);
     assert_eq!((report.frames, report.duration_s), (50, 0.98));
     assert!(report.beyond.iter().any(|(name, rad, _)| *name == hinges[knee] && *rad > 1.0), "{report:?}");

@@ -42,7 +42,7 @@ pub struct Step<'a> {
 }
 
 /// State in which an episode begins.
-pub struct Start<'a> {
+pub struct EpisodeStart<'a> {
     /// Position vector, see [`Physics::position`]; its quaternion need not be normalised.
     pub position: &'a mut [f64],
     /// Velocity vector, see [`Physics::velocity`].
@@ -106,7 +106,7 @@ pub trait Task: Any + Send + Sync {
 
     /// Changes the state in which a new episode starts.
     /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
-    fn start(&mut self, _seed: u64, _physics: &Physics, _start: Start<'_>) {}
+    fn start(&mut self, _seed: u64, _physics: &Physics, _start: EpisodeStart<'_>) {}
 
     /// Chooses, outside of training, which of several beginnings the next episodes have, as which of several motions.
     fn choose_start(&mut self, _number: u64) {}

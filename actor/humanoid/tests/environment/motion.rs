@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use treadmill_humanoid::config::MotionConfig;
-use treadmill_humanoid::motion::{Motion, SampledMotion, with_motions};
+use treadmill_humanoid::mjcf::with_motions;
+use treadmill_humanoid::motion::{MotionClip, SampledMotion};
 use treadmill_humanoid::task::motion::MotionTask;
-use treadmill_humanoid::task::{Start, Step};
+use treadmill_humanoid::task::{EpisodeStart, Step};
 use treadmill_humanoid::{
     EnvConfig, EnvTask, Environment, EnvironmentConfig, Mirror, Model, Physics, RandomisationConfig, Task,
 };
@@ -47,7 +48,7 @@ fn exact() -> MotionConfig {
 }
 
 /// Motion of 3 s in which the robot turns, shifts and swings every hinge a little about its default pose.
-fn motion() -> Motion {
+fn motion() -> MotionClip {
     let model = Model::from_mjcf(&with_card(CARD)).unwrap();
     let default = model.robot.as_ref().unwrap().default_position.clone();
     let hinges: Vec<String> = model.hinges.iter().map(|hinge| hinge.name.clone()).collect();
@@ -58,10 +59,10 @@ fn motion() -> Motion {
         let angle = |(hinge, middle): (usize, &f64)| middle + 0.05 * (TAU * time_s + hinge as f64).sin();
         root.into_iter().chain(default[7..].iter().enumerate().map(angle)).map(|number| number as f32).collect()
     };
-    Motion::new("swing", 50.0, hinges, (0..151).flat_map(frame).collect()).unwrap()
+    MotionClip::new("swing", 50.0, hinges, (0..151).flat_map(frame).collect()).unwrap()
 }
 
-fn model_with(motions: &[Motion]) -> String {
+fn model_with(motions: &[MotionClip]) -> String {
     with_motions(&with_card(CARD), motions).unwrap()
 }
 
@@ -168,7 +169,7 @@ fn the_end_of_a_motion_is_a_truncation_and_episodes_without_training_begin_with_
     let (mut task, mut physics, sampled) = task(&config);
     let (mut position, mut velocity) = (sampled.positions[0].clone(), sampled.velocities[0].clone());
     for seed in [0, 1, 2] {
-        task.start(seed, &physics, Start { position: &mut position, velocity: &mut velocity });
+        task.start(seed, &physics, EpisodeStart { position: &mut position, velocity: &mut velocity });
         assert_eq!(position, sampled.positions[0]);
     }
     task.begin(1, &physics);
@@ -184,7 +185,8 @@ fn the_end_of_a_motion_is_a_truncation_and_episodes_without_training_begin_with_
 
 #[test]
 fn evaluations_begin_with_each_motion_in_turn() {
-    let longer = Motion::new("other", 25.0, motion().hinges, motion().frames().flatten().copied().collect()).unwrap();
+    let longer =
+        MotionClip::new("other", 25.0, motion().hinges, motion().frames().flatten().copied().collect()).unwrap();
     let config = EnvironmentConfig { has_curricula: false, ..config(exact()) };
     let mut environment = Environment::new(&config, &model_with(&[motion(), longer])).unwrap();
     let mut durations = Vec::new();
@@ -206,7 +208,7 @@ fn an_environment_goes_back_to_where_it_failed_until_it_has_come_past() {
     let (mut task, mut physics, sampled) = task(&config(never_uniform));
     let begins = |task: &mut MotionTask, physics: &Physics, seed: u64| {
         let (mut position, mut velocity) = (sampled.positions[0].clone(), sampled.velocities[0].clone());
-        task.start(seed, physics, Start { position: &mut position, velocity: &mut velocity });
+        task.start(seed, physics, EpisodeStart { position: &mut position, velocity: &mut velocity });
         task.begin(seed, physics);
         sampled.positions.iter().position(|known| (known[0] - position[0]).abs() < 1e-9).unwrap()
     };
@@ -260,7 +262,7 @@ fn a_mirrored_robot_with_a_mirrored_motion_observes_the_mirror_image() {
         let wide: Vec<f64> = frame.iter().map(|number| f64::from(*number)).collect();
         reflect(&wide, &mirror.position).into_iter().map(|number| number as f32).collect::<Vec<_>>()
     });
-    let mirrored = Motion::new("mirrored", 50.0, motion.hinges.clone(), frames.collect()).unwrap();
+    let mirrored = MotionClip::new("mirrored", 50.0, motion.hinges.clone(), frames.collect()).unwrap();
     let config = EnvironmentConfig { has_curricula: false, ..config(MotionConfig { future_steps: 1, ..exact() }) };
     let mut one = Environment::new(&config, &model_with(&[motion])).unwrap();
     let mut other = Environment::new(&config, &model_with(&[mirrored])).unwrap();
@@ -321,7 +323,9 @@ fn what_is_missing_is_named() {
     let plain = include_str!("../../assets/g1-like-servos.xml");
     let motions = with_motions(plain, &[motion()]).unwrap();
     assert!(refused(&config(exact()), &motions).contains("needs a robot card"));
-    let long = Motion::new("long", 1.0, self::motion().hinges, self::motion().frames().flatten().copied().collect()).unwrap();
+    let long =
+        MotionClip::new("long", 1.0, self::motion().hinges, self::motion().frames().flatten().copied().collect())
+            .unwrap();
     let why = refused(&config(exact()), &model_with(&vec![long; 60]));
     assert!(why.contains("the motions have 450060 control steps; allowed: 400000"), "{why}");
     for (key, motion) in [

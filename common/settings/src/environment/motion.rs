@@ -9,10 +9,10 @@ macro_rules! motion {
         terms { $( $(#[doc = $doc:literal])+ $name:ident = $weight:expr, $mjlab:literal; )* }
     ) => {
         section! {
-            /// Motion task: the robot imitates motions that `--motion` gives; see docs/guide/motion.md. Each weight of a term
-            /// has the name of mjlab's term without `motion_`, and the reward of a control step is the sum of weight times
-            /// term. mjlab's costs are three to ten times as large, and its offsets at the start five times: with them, robots
-            /// of few environments learn more slowly (`experiments/robots/motion_search.csv`).
+            /// Motion task: the robot imitates motions that `--motion` gives; see docs/guide/motion.md. Each weight of a
+            /// term has the name of mjlab's term without `motion_`, and the reward of a control step is the sum of weight
+            /// times term. mjlab's costs are three to ten times as large, and its offsets at the start up to eight times:
+            /// with them, a run with few environments learns more slowly (`experiments/robots/motion_search.csv`).
             MotionConfig as "motion" {
                 $($keys)*
                 $( $(#[doc = $doc])+ $name: f64 = $weight, "a finite number" => |v| v.is_finite(); )*

@@ -22,13 +22,13 @@ use std::sync::Arc;
 use rand::RngExt;
 
 pub use self::links::Compared;
-use self::observation::{Layout, View};
 pub use self::observation::{MOTION_OBSERVATION, MotionTerm};
+use self::observation::{MotionLayout, MotionView};
 use self::reference::Reference;
 pub use self::rewards::MotionErrors;
 use self::rewards::MotionStep;
 use super::velocity::ACTION_MAX;
-use super::{ObservationTerm, Start, Step, StepEvaluation, Task};
+use super::{EpisodeStart, ObservationTerm, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, MOTION_TERMS, MotionConfig, MotionRewards};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -45,7 +45,7 @@ const TURNED_MAX_RAD: f64 = 1e-3;
 pub struct MotionTask {
     config: MotionConfig,
     reference: Arc<Reference>,
-    layout: Layout,
+    layout: MotionLayout,
     encoder_bias_rad: f64,
     in_training: bool,
     /// For each motor: hinge, default control and control per unit of action.
@@ -98,7 +98,7 @@ impl MotionTask {
         let in_anchor = |link: &usize| anchor.inverse() * physics.link_pose(*link).rotation;
         let turned = physics.body_motion(0).pose.rotation.inverse() * anchor;
         Ok(Self {
-            layout: Layout::new(&config.motion, &reference.compared, motors.len()),
+            layout: MotionLayout::new(&config.motion, &reference.compared, motors.len()),
             config: config.motion.clone(),
             encoder_bias_rad: config.randomisation.encoder_bias_rad,
             in_training: config.has_curricula,
@@ -185,7 +185,7 @@ impl Task for MotionTask {
         &self.layout.terms
     }
 
-    fn start(&mut self, seed: u64, _: &Physics, start: Start<'_>) {
+    fn start(&mut self, seed: u64, _: &Physics, start: EpisodeStart<'_>) {
         self.begin_motion(seed, start);
     }
 
@@ -252,7 +252,7 @@ impl Task for MotionTask {
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
-        View::new(self, physics).write(noise, observation);
+        MotionView::new(self, physics).write(noise, observation);
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {

@@ -37,7 +37,7 @@ pub struct MotionTerm {
 }
 
 /// Passes the entries of a term to the last argument, in order.
-type Write = fn(&View<'_>, &mut SensorNoise, &mut dyn FnMut(f64));
+type Write = fn(&MotionView<'_>, &mut SensorNoise, &mut dyn FnMut(f64));
 
 /// Entries of a term: their number and their mirror image.
 #[derive(Clone, Copy, Debug)]
@@ -150,7 +150,7 @@ pub const MOTION_OBSERVATION: &[MotionTerm] = &[
 ];
 
 /// What the terms show.
-pub(super) struct View<'a> {
+pub(super) struct MotionView<'a> {
     task: &'a MotionTask,
     physics: &'a Physics,
     /// From the world to the frame of the robot's anchor.
@@ -159,7 +159,7 @@ pub(super) struct View<'a> {
     motion_in_anchor: Isometry3<f64>,
 }
 
-impl<'a> View<'a> {
+impl<'a> MotionView<'a> {
     /// Returns what there is to see now.
     pub(super) fn new(task: &'a MotionTask, physics: &'a Physics) -> Self {
         let from_anchor = physics.link_pose(task.reference.compared.anchor).inverse();
@@ -191,7 +191,7 @@ fn columns(turn: &UnitQuaternion<f64>) -> [f64; 6] {
 }
 
 /// Terms of an observation, with their places.
-pub(super) struct Layout {
+pub(super) struct MotionLayout {
     rows: Vec<&'static MotionTerm>,
     /// The rows with their places.
     pub terms: Vec<ObservationTerm>,
@@ -199,7 +199,7 @@ pub(super) struct Layout {
     further_steps: usize,
 }
 
-impl Layout {
+impl MotionLayout {
     /// Returns the layout that the settings select, for a number of joints.
     pub fn new(config: &MotionConfig, compared: &Compared, joints: usize) -> Self {
         let further_steps = config.future_steps as usize;

@@ -9,11 +9,11 @@ use rand::{Rng, RngExt};
 
 use super::MotionTask;
 use crate::randomisation::{stream, uniform};
-use crate::task::Start;
+use crate::task::EpisodeStart;
 
 impl MotionTask {
-    /// Returns whether the robot has come past a failure in this episode: by as long as an episode may begin before one, or to
-    /// the end of its motion.
+    /// Returns whether the robot has come past a failure in this episode: by as long as an episode may begin before one, or
+    /// to the end of its motion.
     pub(super) fn has_passed(&self, failed: usize) -> bool {
         let motion = self.reference.motion_of(failed);
         let has_met = motion.contains(&self.began) && self.began <= failed;
@@ -25,11 +25,11 @@ impl MotionTask {
     }
 
     /// Chooses where the next episode begins, and places the robot there, with an offset.
-    pub(super) fn begin_motion(&mut self, seed: u64, start: Start<'_>) {
+    pub(super) fn begin_motion(&mut self, seed: u64, start: EpisodeStart<'_>) {
         let mut random = stream(seed, "start");
         let first = self.first_step(&mut random);
         (self.began, self.step) = (first, first + 1);
-        let Start { position, velocity } = start;
+        let EpisodeStart { position, velocity } = start;
         position.copy_from_slice(&self.reference.positions[first]);
         velocity.copy_from_slice(&self.reference.velocities[first]);
         let config = &self.config;

@@ -38,7 +38,7 @@ pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 pub use self::standing::Calm;
 use self::standing::Standing;
-use super::{Difficulty, ObservationTerm, Reached, Start, Step, StepEvaluation, Task};
+use super::{Difficulty, EpisodeStart, ObservationTerm, Reached, Step, StepEvaluation, Task};
 pub use crate::config::HEADING_GAIN;
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
@@ -226,7 +226,7 @@ impl Task for VelocityTask {
         &self.layout.terms
     }
 
-    fn start(&mut self, seed: u64, physics: &Physics, Start { position, .. }: Start<'_>) {
+    fn start(&mut self, seed: u64, physics: &Physics, EpisodeStart { position, .. }: EpisodeStart<'_>) {
         let Some(curriculum) = &mut self.curriculum else { return };
         let mut random = stream(seed, "start");
         let kind = self.ground.as_ref().map_or(0, |ground| random.random_range(0..ground.kinds.len()));

@@ -3,9 +3,9 @@
 use base64::{Engine, engine::general_purpose::STANDARD};
 use roxmltree::{Document, Node};
 
-use super::{Motion, MotionError};
+use super::xml;
 use crate::error::ModelError;
-use crate::mjcf::xml;
+use crate::model::{MotionClip, MotionError};
 
 /// Beginning of the names of the `<text>`s.
 const MOTION_TEXT: &str = "treadmill_motion_";
@@ -14,7 +14,7 @@ const MOTION_TEXT: &str = "treadmill_motion_";
 const HINGES_MAX: usize = 1000;
 
 /// Returns whether a node is the `<text>` of a motion.
-pub(crate) fn is_motion(node: &Node<'_, '_>) -> bool {
+pub(super) fn is_motion(node: &Node<'_, '_>) -> bool {
     node.attribute("name").is_some_and(|name| name.starts_with(MOTION_TEXT))
 }
 
@@ -22,7 +22,7 @@ pub(crate) fn is_motion(node: &Node<'_, '_>) -> bool {
 ///
 /// # Errors
 /// [`ModelError`] if the text is not XML.
-pub fn with_motions(text: &str, motions: &[Motion]) -> Result<String, ModelError> {
+pub fn with_motions(text: &str, motions: &[MotionClip]) -> Result<String, ModelError> {
     let document = xml::parse(text)?;
     let mut whole = text.to_owned();
     // With a section that holds nothing else.
@@ -49,7 +49,7 @@ pub fn with_motions(text: &str, motions: &[Motion]) -> Result<String, ModelError
 ///
 /// # Errors
 /// [`ModelError`] if the text is not XML, or a motion in it is damaged.
-pub fn motions_of(text: &str) -> Result<Vec<Motion>, ModelError> {
+pub fn motions_of(text: &str) -> Result<Vec<MotionClip>, ModelError> {
     in_document(&xml::parse(text)?)
 }
 
@@ -57,7 +57,7 @@ pub fn motions_of(text: &str) -> Result<Vec<Motion>, ModelError> {
 ///
 /// # Errors
 /// [`ModelError::Motion`] if one is damaged.
-pub(crate) fn in_document(document: &Document<'_>) -> Result<Vec<Motion>, ModelError> {
+pub(super) fn in_document(document: &Document<'_>) -> Result<Vec<MotionClip>, ModelError> {
     let read = |node: Node<'_, '_>| read(node.attribute("data").unwrap_or_default());
     nodes(document).map(read).collect::<Result<_, MotionError>>().map_err(|why| ModelError::Motion(why.to_string()))
 }
@@ -68,15 +68,15 @@ fn nodes<'a, 'i>(document: &'a Document<'i>) -> impl Iterator<Item = Node<'a, 'i
 }
 
 /// Writes name, rate, number of hinges, their names, and the frames in base64, each in a line.
-fn written(motion: &Motion) -> String {
-    let bytes: Vec<u8> = motion.frames.iter().flat_map(|number| number.to_le_bytes()).collect();
+fn written(motion: &MotionClip) -> String {
+    let bytes: Vec<u8> = motion.frames().flatten().flat_map(|number| number.to_le_bytes()).collect();
     let mut lines = vec![motion.name.clone(), motion.rate_hz.to_string(), motion.hinges.len().to_string()];
     lines.extend(motion.hinges.iter().cloned());
     lines.push(STANDARD.encode(bytes));
     lines.join("\n")
 }
 
-fn read(data: &str) -> Result<Motion, MotionError> {
+fn read(data: &str) -> Result<MotionClip, MotionError> {
     let damaged = || MotionError("a motion in the model text is damaged".to_owned());
     let mut lines = data.lines();
     let mut next = || lines.next().ok_or_else(damaged);
@@ -95,5 +95,5 @@ fn read(data: &str) -> Result<Motion, MotionError> {
     if !rest.is_empty() {
         return Err(damaged());
     }
-    Motion::new(name, rate_hz, hinges, numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
+    MotionClip::new(name, rate_hz, hinges, numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
 }
