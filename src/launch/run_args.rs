@@ -25,8 +25,8 @@ const OF_MOTIONS: &str = "motion";
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
     /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, sim2sim, smoke, own-task (the
-    /// default for tasks that are not built in), or that of a robot, which --model gives: g1, g1-29, g1-rough, h1, t1, or
-    /// velocity (the default with --task velocity) for any.
+    /// default for tasks that are not built in), or that of a robot, which --model gives: g1, g1-29, g1-rough, g1-motion,
+    /// h1, t1, or velocity and motion (the defaults with --task velocity and --task motion) for any.
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.

@@ -59,7 +59,10 @@ fn configuration_files_are_checked() {
     assert_refused(
         &output,
         2,
-        &["stroll", "walk, own-task, walk-v5obs, walk-v4obs, smoke, velocity, g1, g1-29, g1-rough, h1, t1, sim2sim"],
+        &[
+            "stroll",
+            "walk, own-task, walk-v5obs, walk-v4obs, smoke, velocity, g1, g1-29, g1-rough, motion, g1-motion, h1, t1, sim2sim",
+        ],
     );
 }
 

@@ -187,10 +187,8 @@ pub(crate) fn print_table(records: &[&Record], differences: Option<&[BTreeMap<&s
     }
     say("");
     say("reached: mean distance of the best evaluation, in brackets that of the last training episodes;");
-    say(
-        "with commands (±) the mean velocity error of the last evaluation; with motions the share that is done, and the error",
-    );
-    say("of the robot's links.");
+    say("with commands (±) the mean velocity error of the last evaluation, with motions the share done");
+    say("and the error of the links (±).");
     say("return, falls: of the last training episodes.");
 }
 

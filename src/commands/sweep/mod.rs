@@ -85,7 +85,7 @@ pub fn describe(arg: Arg) -> Arg {
         "run_dir" => arg.help("Folder of the sweep; by default runs/sweep-N with the first free N"),
         "seed" => arg.help("Seed of the first trial, and of what is drawn"),
         "actors" => arg.help("Actor processes of each trial; by default the trials at once share the cores"),
-        "motion_fps" => arg.visible_alias("fps"),
+        "motion_fps" => arg.alias("fps"),
         "store" | "no_progress" => arg.hide(true),
         _ => arg,
     }

@@ -140,7 +140,7 @@ fn terms_of_the_reward_are_those_computed_by_hand() {
     check(&|position, _| position[2] += 0.1, [higher, 1.0, higher, 1.0, 1.0, 1.0]);
     // Faster by 1 m/s, and turning faster by 3.14 rad/s about the vertical, which also moves what is beside the base.
     check(&|_, velocity| velocity[0] += 1.0, [1.0, 1.0, 1.0, 1.0, near, 1.0]);
-    let (terms, ..) = evaluated(|_, velocity| velocity[5] += 3.14);
+    let (terms, ..) = evaluated(|_, velocity| velocity[5] += std::f64::consts::PI);
     assert!((terms[5].1 - near).abs() < 2e-4, "{terms:?}");
     // Turned by 0.4 rad about the vertical through the anchor: its angle alone.
     let (terms, ..) = evaluated(|position, _| {

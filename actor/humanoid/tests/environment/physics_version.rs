@@ -30,7 +30,7 @@ const GOLDEN: (u32, [[f64; 3]; 7]) = (
 );
 
 /// The same of a robot that imitates a motion, whose start does not depend on the noise of the reset.
-const GOLDEN_MOTION: [f64; 3] = [0.0, 0.0, 0.0];
+const GOLDEN_MOTION: [f64; 3] = [455.07379672575973, 268.02176603581756, 4379.739671083248];
 
 /// Settings, seed and model.
 pub(crate) type Scene = (EnvironmentConfig, u64, String);

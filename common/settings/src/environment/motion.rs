@@ -112,7 +112,7 @@ motion! {
         /// Width of the term `body_lin_vel`, in m/s.
         body_lin_vel_std_mps: f64 = 1.0, "0.001 to 100" => is_width;
         /// Width of the term `body_ang_vel`, in rad/s.
-        body_ang_vel_std_radps: f64 = 3.14, "0.001 to 100" => is_width;
+        body_ang_vel_std_radps: f64 = std::f64::consts::PI, "0.001 to 100" => is_width;
     }
     terms {
         /// exp(-e²/width²) of the distance e between the anchor and that of the motion (m).
