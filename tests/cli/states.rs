@@ -1,6 +1,6 @@
 //! What `status`, `runs` and `check` say of runs that ended, were killed, lie in a store, or cannot be read.
 
-use std::{fs, os::unix::fs::PermissionsExt, path::Path};
+use std::{fs, io::ErrorKind, os::unix::fs::PermissionsExt, path::Path};
 
 use crate::support::*;
 use std::os::unix::process::CommandExt;
@@ -92,8 +92,13 @@ fn without_rights(folder: &Path, args: &[&str]) -> std::process::Output {
     let copy = folder.join("treadmill");
     fs::copy(env!("CARGO_BIN_EXE_treadmill"), &copy).unwrap();
     fs::set_permissions(&copy, fs::Permissions::from_mode(0o755)).unwrap();
-    let as_another = std::process::Command::new(copy).args(args).current_dir(folder).uid(65_534).output();
-    as_another.unwrap_or_else(|_| run(folder, args))
+    loop {
+        match std::process::Command::new(&copy).args(args).current_dir(folder).uid(65_534).output() {
+            // A process that another test starts at this moment still holds the file open for writing.
+            Err(why) if why.kind() == ErrorKind::ExecutableFileBusy => std::thread::yield_now(),
+            done => return done.unwrap_or_else(|_| run(folder, args)),
+        }
+    }
 }
 
 #[test]

@@ -305,7 +305,8 @@ pub(crate) mod tests {
         let message = set("env.task=humanoid-v6").unwrap_err().to_string();
         assert_eq!(
             message,
-            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\", \"velocity\" or \"external\""
+            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\", \"velocity\", \"motion\" or \
+             \"external\""
         );
         assert!(set("env.observation=5").unwrap_err().to_string().contains("\"compact\""));
     }

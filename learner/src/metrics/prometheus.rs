@@ -150,6 +150,7 @@ impl Exported {
             "MB" => (&["_mb"], "_bytes", 1e6),
             "m" => (&["_m"], "_meters", 1.0),
             "m/s" => (&["_mps"], "_meters_per_second", 1.0),
+            "rad" => (&[], "_radians", 1.0),
             "rad/s" => (&[], "_radians_per_second", 1.0),
             "share" => (&["_share"], "_ratio", 1.0),
             "steps/s" => (&["env_steps_per_s", "fps"], "_steps_per_second", 1.0),

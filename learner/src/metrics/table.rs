@@ -16,11 +16,15 @@ const PLAIN_BELOW: f64 = 1e15;
 /// Numbers below this are written with an exponent.
 const PLAIN_FROM: f64 = 1e-4;
 
-/// Returns the most important metrics, in their own order: errors instead of distances where the task has commands.
+/// Returns the most important metrics, in their own order: errors instead of distances where the task has commands or
+/// motions.
 pub fn important(scalars: &Scalars) -> Vec<(String, f64)> {
-    let is_commanded = scalars.iter().any(|(tag, _)| tag == "eval/velocity_error");
+    let has = |wanted: &str| scalars.iter().any(|(tag, _)| tag == wanted);
+    let (is_commanded, is_imitating) = (has("eval/velocity_error"), has("eval/done_share"));
     let is_important = |tag: &str| MetricRow::of(tag).is_some_and(|row| row.is_important);
-    let shown = |tag: &str| is_important(tag) && !(is_commanded && tag.contains("distance"));
+    let is_of_walkers = |tag: &str| tag.contains("distance") && (is_commanded || is_imitating);
+    let is_of_commands = |tag: &str| tag.ends_with("_error") && tag != "eval/body_error" && is_imitating;
+    let shown = |tag: &str| is_important(tag) && !is_of_walkers(tag) && !is_of_commands(tag);
     scalars.iter().filter(|(tag, _)| shown(tag)).cloned().collect()
 }
 
@@ -141,7 +145,12 @@ mod tests {
     fn a_table_of_important_metrics_fits_a_small_terminal() {
         let all: Vec<(String, f64)> =
             crate::metrics::catalogue::METRICS.iter().map(|row| (row.tag.to_string(), 1.5)).collect();
-        for all in [all.clone(), all.into_iter().filter(|(tag, _)| tag != "eval/velocity_error").collect()] {
+        // Of imitators, of robots with commands, and of walkers.
+        let without =
+            |tags: &[&str]| all.iter().filter(|(tag, _)| !tags.contains(&tag.as_str())).cloned().collect::<Vec<_>>();
+        let of_motions = ["eval/done_share", "eval/body_error"];
+        let of_others = [&of_motions[..], &["eval/velocity_error", "eval/yaw_rate_error"]].concat();
+        for all in [all.clone(), without(&of_motions), without(&of_others)] {
             let table = render_table(&important(&all));
             assert!(table.lines().count() <= 25 && !table.contains("accepted_mb"), "{table}");
         }
