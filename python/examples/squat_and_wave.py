@@ -14,7 +14,7 @@ HINGES = (
     "right_shoulder1 right_shoulder2 right_elbow left_shoulder1 left_shoulder2 left_elbow"
 ).split()
 # Height of the root when the legs are straight, and lengths of thigh and shin (m).
-STANDING_M, THIGH_M, SHIN_M = 1.402, 0.403, 0.35
+STANDING_M, THIGH_M, SHIN_M = 1.292, 0.403, 0.35
 # Legs that stand are a little bent.
 STANDING_RAD, SQUATTING_RAD = 0.15, 0.6
 
@@ -34,7 +34,6 @@ def frame(time_s):
         # Thigh and shin turn against each other, so that the feet stay below the hips.
         angles[f"{side}_hip_y"], angles[f"{side}_knee"] = -bent, -2.0 * bent
         angles[f"{side}_elbow"] = -1.0
-    angles["abdomen_y"] = -0.5 * (bent - STANDING_RAD)
     angles["right_shoulder1"], angles["right_shoulder2"] = -0.9 * raised, 0.6 * raised
     angles["right_elbow"] += raised * 0.5 * math.sin(2.0 * math.pi * 1.5 * time_s)
     height_m = STANDING_M - (THIGH_M + SHIN_M) * (1.0 - math.cos(bent))

@@ -19,6 +19,10 @@ use crate::physics::Physics;
 /// Cosine of the greatest tilt of a base that stands.
 const UPRIGHT: f64 = 0.9;
 
+/// Line of a hinge that no gait moves, and what it becomes for motions. Hinges that follow others stay without a servo.
+const HELD: &str = "held = true  # no hinge of a leg";
+const FREED: &str = "action_scale_rad = 0.25  # guess: motions move it by a radian";
+
 /// What gaits scale with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodySize {
@@ -59,11 +63,16 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// Returns the card for a robot that moves all its hinges, and all of whose parts may meet: for motions.
+    /// Returns the card for a robot that moves all hinges that can have a servo, and all of whose parts may meet: for
+    /// motions.
     #[must_use]
     pub fn moving_all(mut self) -> Self {
-        let is_kept = |line: &&str| !line.starts_with("held = true") && !line.starts_with("self_contacts = ");
-        self.card = self.card.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        let freed = |line| match line {
+            line if str::starts_with(line, HELD) => FREED,
+            line => line,
+        };
+        let lines = self.card.lines().filter(|line| !line.starts_with("self_contacts = "));
+        self.card = lines.map(freed).flat_map(|line| [line, "\n"]).collect();
         self
     }
 
