@@ -33,9 +33,9 @@ def frame(time_s):
     for side in ("right", "left"):
         # Thigh and shin turn against each other, so that the feet stay below the hips.
         angles[f"{side}_hip_y"], angles[f"{side}_knee"] = -bent, -2.0 * bent
-        angles[f"{side}_elbow"] = -1.0
+        angles[f"{side}_elbow"] = -0.6
     angles["right_shoulder1"], angles["right_shoulder2"] = -0.9 * raised, 0.6 * raised
-    angles["right_elbow"] += raised * 0.5 * math.sin(2.0 * math.pi * 1.5 * time_s)
+    angles["right_elbow"] += raised * 0.4 * math.sin(2.0 * math.pi * 1.5 * time_s)
     height_m = STANDING_M - (THIGH_M + SHIN_M) * (1.0 - math.cos(bent))
     return [0.0, 0.0, height_m, 0.0, 0.0, 0.0, 1.0, *(angles[hinge] for hinge in HINGES)]
 
