@@ -1,5 +1,7 @@
 """Measures how long a robot trains until it imitates a motion: the rows of time_to_imitate.csv.
 
+MOTION is a file or a folder; several have commas between them.
+
 Usage: python3 -m experiments.robots.imitates MOTION MODEL STEPS FOLDER [--preset g1-motion] [--seeds 1 2 3] [--bodies 0.06]
                 [--falls 5] [--first 1] [--all] [--set KEY=VALUE ...] [--csv time_to_imitate.csv]
 
@@ -13,14 +15,11 @@ TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one
 """
 
-import argparse
-import json
 import os
 import pathlib
 import sys
 
-from experiments import report
-from experiments.robots.obeys import CHECKPOINTS, EPISODES, SOURCES, began_unix_s, last_line, steps_at
+from experiments.robots.obeys import CHECKPOINTS, EPISODES, arguments, began_unix_s, each_seed, last_line, steps_at
 
 MEASURED = ["finished", "share done", "error of links", "angle of links"]
 COLUMNS = ["preset", "motion", "seed", "steps", "seconds from the start of `train`", "imitates", *MEASURED]
@@ -84,30 +83,10 @@ def cells(args, row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("motion", help="file or folder; several with commas between them")
-    parser.add_argument("model")
-    parser.add_argument("steps", type=int)
-    parser.add_argument("folder", type=pathlib.Path)
+    parser = arguments(__doc__, "motion")
     parser.add_argument("--preset", default="g1-motion")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--bodies", type=float, default=0.06)
-    parser.add_argument("--falls", type=int, default=5)
-    parser.add_argument("--first", type=int, default=1, help="update of the first checkpoint to measure")
-    parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--csv", type=pathlib.Path)
-    parser.add_argument("--all", action="store_true", help="measure every checkpoint, each in both simulators")
-    args = parser.parse_args()
-    program = os.environ.get("TREADMILL", "target/release/treadmill")
-    for seed in args.seeds:
-        folder = args.folder / f"{args.preset}-{seed}"
-        train(program, args, seed, folder)
-        for row in measure(program, args, seed, folder):
-            print(json.dumps(row), flush=True)
-            if args.csv:
-                report.append_row(args.csv, COLUMNS, cells(args, row), SOURCES)
-            if row["imitates"] and not args.all:
-                break
+    parser.add_argument("--bodies", type=float, default=0.06, help="greatest mean error of the links (m)")
+    each_seed(parser.parse_args(), COLUMNS, "imitates", train, measure, cells)
 
 
 if __name__ == "__main__":

@@ -112,20 +112,24 @@ def cells(args, row):
     return [", ".join(changes), goal, row["seed"], f"{row['steps'] / 1e6:.2f} M", round(row["seconds"]), obeys, *found[0], *found[1]]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("preset")
+def arguments(doc, first):
+    """Returns a parser of what each measurement takes, after its first argument."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(first)
     parser.add_argument("model")
     parser.add_argument("steps", type=int)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--errors", type=float, nargs=2, default=[0.15, 0.2])
     parser.add_argument("--falls", type=int, default=5)
     parser.add_argument("--first", type=int, default=1, help="update of the first checkpoint to measure")
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--csv", type=pathlib.Path)
     parser.add_argument("--all", action="store_true", help="measure every checkpoint, each in both simulators")
-    args = parser.parse_args()
+    return parser
+
+
+def each_seed(args, columns, reached, train, measure, cells):
+    """Trains and measures each seed, until a row has what `reached` names."""
     program = os.environ.get("TREADMILL", "target/release/treadmill")
     for seed in args.seeds:
         folder = args.folder / f"{args.preset}-{seed}"
@@ -133,9 +137,15 @@ def main():
         for row in measure(program, args, seed, folder):
             print(json.dumps(row), flush=True)
             if args.csv:
-                report.append_row(args.csv, COLUMNS, cells(args, row), SOURCES)
-            if row["obeys"] and not args.all:
+                report.append_row(args.csv, columns, cells(args, row), SOURCES)
+            if row[reached] and not args.all:
                 break
+
+
+def main():
+    parser = arguments(__doc__, "preset")
+    parser.add_argument("--errors", type=float, nargs=2, default=[0.15, 0.2])
+    each_seed(parser.parse_args(), COLUMNS, "obeys", train, measure, cells)
 
 
 if __name__ == "__main__":

@@ -30,8 +30,8 @@ class Joints:
 
 
 @dataclass
-class Contract:
-    """Contract of a policy of the velocity task, of format 1, checked."""
+class ServoContract:
+    """What a contract says of a robot with servos."""
 
     control_step_s: float
     joints: Joints
@@ -45,6 +45,17 @@ class Contract:
     base_height_m: float
     base_orientation_wxyz: numpy.ndarray
     observation: list
+
+    @property
+    def outputs(self):
+        """Names of the entries of an action."""
+        return self.joints.names
+
+
+@dataclass
+class Contract(ServoContract):
+    """Contract of a policy of the velocity task, of format 1, checked."""
+
     history: int
     gait_period_s: float
     gait_rests_below: float
@@ -69,11 +80,6 @@ class Contract:
     def width(self):
         """Numbers of one observation, all frames together."""
         return self.history * sum(size for _, size in self.observation)
-
-    @property
-    def outputs(self):
-        """Names of the entries of an action."""
-        return self.joints.names
 
 
 class Policy:

@@ -7,7 +7,7 @@ import mujoco
 import numpy
 
 from .commands import Pushes
-from .contract import Joints, TransferError
+from .contract import ServoContract, TransferError
 from .robot import Robot
 from .trace import largest_difference
 
@@ -15,21 +15,9 @@ TABLES = ("joint_pos", "joint_vel", "body_pos_w", "body_quat_w", "body_lin_vel_w
 
 
 @dataclass
-class MotionContract:
+class MotionContract(ServoContract):
     """Contract of a policy of the motion task, of format 1, checked."""
 
-    control_step_s: float
-    joints: Joints
-    action_scale: numpy.ndarray
-    action_limit: float
-    held: Joints
-    base_body: str
-    base_turn_wxyz: numpy.ndarray
-    excluded_bodies: list
-    feet_bodies: list
-    base_height_m: float
-    base_orientation_wxyz: numpy.ndarray
-    observation: list
     push_interval_s: tuple
     push_mps: tuple
     anchor_body: str
@@ -48,11 +36,6 @@ class MotionContract:
     def width(self):
         """Numbers of one observation."""
         return sum(size for _, size in self.observation)
-
-    @property
-    def outputs(self):
-        """Names of the entries of an action."""
-        return self.joints.names
 
 
 def read_motion_contract(fields, shared):
@@ -81,14 +64,13 @@ def read_motion_contract(fields, shared):
     )
 
 
-class Reference:
-    """Tables of the motion that the ONNX file gives out, and the row that is to be reached."""
-
-    def __init__(self, policy):
-        self.tables = policy.tables(policy.contract.rows, TABLES)
-        for name in ("body_pos_w", "body_quat_w"):
-            if self.tables[name].shape[1] != len(policy.contract.body_names):
-                raise TransferError(f"the output `{name}` has {self.tables[name].shape[1]} bodies, the contract {len(policy.contract.body_names)}")
+def read_tables(policy):
+    """Returns the tables of the motion that the ONNX file gives out, by their names."""
+    tables, bodies = policy.tables(policy.contract.rows, TABLES), len(policy.contract.body_names)
+    for name in ("body_pos_w", "body_quat_w"):
+        if tables[name].shape[1] != bodies:
+            raise TransferError(f"the output `{name}` has {tables[name].shape[1]} bodies, the contract {bodies}")
+    return tables
 
 
 class Imitator:
@@ -98,7 +80,7 @@ class Imitator:
         self.contract, self.policy = policy.contract, policy
         self.robot = Robot(path, self.contract, timestep_s)
         self.model, self.data, self.notes = self.robot.model, self.robot.data, self.robot.notes
-        self.tables = Reference(policy).tables
+        self.tables = read_tables(policy)
         self.bodies = [self._body(path, name) for name in self.contract.body_names]
         self.anchor = self.contract.body_names.index(self.contract.anchor_body)
         # The policy knows the base by its x axis, which points forward.

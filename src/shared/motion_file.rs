@@ -85,7 +85,7 @@ impl MotionArgs {
 /// Reads a file as a motion of a simulated robot.
 ///
 /// # Errors
-/// If it is none.
+/// If the file is no motion of this robot.
 pub fn read_one(path: &Path, fps: Option<f64>, physics: &mut Physics) -> Result<MotionFile, Usage> {
     // A rate that a file has must not be given.
     let is_csv = path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("npz"));

@@ -33,7 +33,7 @@ enum GoalKind {
 }
 
 impl Goal {
-    /// Returns the goal of a configuration that names none: the last evaluation, or training where there is none. A
+    /// Returns the goal of a configuration that names none: the last evaluation, or the training before the first one. A
     /// population cannot wait for evaluations, which come later than the steps that they are of.
     pub(crate) fn of(config: &Config, is_population: bool) -> Self {
         let (tag, kind) = match (config.env.chosen_task(), config.evaluates() && !is_population) {

@@ -21,8 +21,8 @@ use nalgebra::Point3;
 pub use self::humanoid::{HumanoidTask, contact_cost, is_healthy};
 pub use self::registry::{TaskBuilder, TaskRegistry};
 use crate::error::StateError;
-use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
+use crate::model::{Model, Robot};
 pub use crate::observation::ObservationTerm;
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
@@ -191,6 +191,12 @@ pub trait Task: Any + Send + Sync {
             found => Err(StateError::Length { what: "task", found, expected: 0 }),
         }
     }
+}
+
+/// Returns for each motor of a robot with a card: hinge, default control and control per unit of action.
+fn servos(model: &Model, robot: &Robot) -> Vec<(usize, f64, f64)> {
+    let servo = |hinge: usize| (hinge, robot.default_position[7 + hinge], robot.hinges[hinge].action_scale_rad);
+    model.motors.iter().map(|motor| servo(motor.hinge)).collect()
 }
 
 /// Returns the angle beyond nine tenths of the hinges' ranges, summed over the hinges (rad).

@@ -28,7 +28,7 @@ use self::reference::Reference;
 pub use self::rewards::MotionErrors;
 use self::rewards::MotionStep;
 use super::velocity::ACTION_MAX;
-use super::{EpisodeStart, ObservationTerm, Step, StepEvaluation, Task};
+use super::{EpisodeStart, ObservationTerm, Step, StepEvaluation, Task, servos};
 use crate::config::{EnvironmentConfig, MOTION_TERMS, MotionConfig, MotionRewards};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -87,12 +87,7 @@ impl MotionTask {
                     .to_owned(),
             ));
         };
-        let default = &robot.default_position;
-        let motors: Vec<(usize, f64, f64)> = model
-            .motors
-            .iter()
-            .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
-            .collect();
+        let motors = servos(model, robot);
         let reference = Reference::shared(config, physics)?;
         let anchor = physics.link_pose(reference.compared.anchor).rotation;
         let in_anchor = |link: &usize| anchor.inverse() * physics.link_pose(*link).rotation;
@@ -146,11 +141,6 @@ impl MotionTask {
     #[must_use]
     pub fn wanted_position(&self) -> &[f64] {
         &self.reference.positions[self.step]
-    }
-
-    /// Returns the compared links of the motion that the next control step is to reach.
-    pub fn wanted_links(&self) -> impl Iterator<Item = LinkMotion> {
-        self.reference.links(self.step)
     }
 
     /// Returns what is compared.

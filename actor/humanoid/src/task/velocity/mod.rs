@@ -38,7 +38,7 @@ pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 pub use self::standing::Calm;
 use self::standing::Standing;
-use super::{Difficulty, EpisodeStart, ObservationTerm, Reached, Step, StepEvaluation, Task};
+use super::{Difficulty, EpisodeStart, ObservationTerm, Reached, Step, StepEvaluation, Task, servos};
 pub use crate::config::HEADING_GAIN;
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
@@ -119,11 +119,7 @@ impl VelocityTask {
             ));
         };
         let default = &robot.default_position;
-        let motors: Vec<(usize, f64, f64)> = model
-            .motors
-            .iter()
-            .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
-            .collect();
+        let motors = servos(model, robot);
         let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
         let body = Stance {
             default_rad: default[7..].to_vec(),
