@@ -9,7 +9,8 @@ A robot imitates a motion at the first checkpoint that, played without explorati
 offsets of the training at the start and without pushes, leaves the motion before its end in at most so many episodes, and whose
 links are within so many metres of it in the mean, moved so that the anchors lie above each other. The same is measured in MuJoCo by
 the exported ONNX alone, and does not decide. Its time counts from the start of `train`, with all that `train` does, evaluations
-included. Each seed trains to STEPS alone; checkpoints are measured afterwards. A run that FOLDER holds is only measured.
+included. Each seed trains to STEPS alone; checkpoints are measured afterwards. A run that FOLDER holds is only
+measured; the seconds of one that was resumed count from there.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one

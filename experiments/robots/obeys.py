@@ -7,7 +7,7 @@ A robot obeys at the first checkpoint that, played without exploration for 100 e
 pushes of the training, misses the commanded velocity by at most the first error (m/s) and the yaw rate by at most the second
 (rad/s), and falls in at most so many of the episodes, here and in MuJoCo. Its time counts from the start of `train`, with all that
 `train` does, evaluations included. Each seed trains to STEPS alone; checkpoints are measured afterwards. A run that FOLDER holds is
-only measured. `--csv` appends the rows to a table, with this repository's commit.
+only measured; the seconds of one that was resumed count from there. `--csv` appends the rows to a table, with this repository's commit.
 
 TREADMILL  the program; by default target/release/treadmill
 PYTHON     Python with mujoco and onnxruntime, and python/ of this repository on its path; by default this one
