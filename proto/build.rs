@@ -2,7 +2,7 @@
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=schema");
-    let schemas = ["policy", "rollout", "stats", "evaluation", "control", "task", "poses", "page"]
+    let schemas = ["policy", "rollout", "stats", "evaluation", "control", "task", "poses", "page", "pool"]
         .map(|name| format!("schema/{name}.proto"));
     let files = protox::compile(schemas, ["schema"])?;
     prost_build::Config::new()

@@ -2,6 +2,7 @@
 
 mod options;
 mod physics_thread;
+mod pooled;
 
 use std::{
     collections::VecDeque,
@@ -11,8 +12,8 @@ use std::{
 
 use tokio::task::JoinSet;
 use treadmill_bus::{
-    Bus,
-    actor::{PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
+    Bus, BusError,
+    actor::{PoolCalls, PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
     observer::{newest_of_each_run, statuses},
 };
 use treadmill_humanoid::task::Reached;
@@ -21,7 +22,10 @@ use treadmill_runtime::{epoch::SeenEpoch, seeds, shutdown::Shutdown};
 
 pub use options::{ActorSummary, BehindStandby, WorkerOptions};
 
-use self::physics_thread::{PhysicsThread, ProducedFragment, Progress, Shared};
+use self::{
+    physics_thread::{PhysicsThread, ProducedFragment, Progress, Shared},
+    pooled::{Deliveries, PoolPlace, Seeker},
+};
 use crate::{
     ActorError,
     delivery::Uploader,
@@ -41,6 +45,13 @@ const NAME_RETRY: Duration = Duration::from_millis(500);
 /// Interval of asking whether the endpoint is a standby's: a learner that leads may be overtaken.
 const PLACE_CHECK_EVERY: Duration = Duration::from_secs(10);
 
+/// Longest wait of an actor of a pool for the policy of a run that has admitted it.
+const JOIN_TIMEOUT: Duration = Duration::from_secs(10);
+/// Longest wait for the receipts of the last fragments of an actor that moves to another run. Later ones come meanwhile.
+const LEAVE_TIMEOUT: Duration = Duration::from_secs(1);
+/// Interval of looking for another run while the learner is gone.
+const SEEK_EVERY: Duration = Duration::from_secs(1);
+
 /// Time over which the speed in the statistics is measured, as the learner measures its own.
 const RATE_WINDOW: Duration = Duration::from_secs(10);
 
@@ -49,6 +60,8 @@ enum EndReason {
     StopRequested,
     RunReplaced,
     BehindStandby,
+    /// Another run has admitted the actor. Some deliveries may be under way.
+    Moves(String, Deliveries),
 }
 
 /// How an actor ended.
@@ -65,14 +78,40 @@ pub enum Ending {
 pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Result<Ending, ActorError> {
     let mut last = None;
     let epochs = Arc::new(SeenEpoch::default());
+    let enter = || PoolPlace::enter(bus, &options.name, options.envs);
+    let mut pool = options.is_pooled.then(enter).transpose()?;
+    let mut admitted = None;
     loop {
-        let Some(bundle) = join_run(bus, options.run.as_deref(), &options.explain, &epochs, shutdown).await? else {
-            return Ok(Ending::Stopped(last));
+        let run = match (&mut pool, admitted.take()) {
+            (None, _) => options.run.clone(),
+            (Some(_), Some(run)) => Some(run),
+            (Some(pool), None) => match pool.find(shutdown).await? {
+                None => return Ok(Ending::Stopped(last)),
+                found => found,
+            },
         };
+        let joining = join_run(bus, run.as_deref(), &options.explain, &epochs, shutdown);
+        let joined = match &mut pool {
+            None => joining.await?,
+            Some(pool) => {
+                pool.settle(run.as_deref().unwrap_or_default(), LEAVE_TIMEOUT).await;
+                // The run may have ended since.
+                let Ok(joined) = tokio::time::timeout(JOIN_TIMEOUT, joining).await else { continue };
+                joined?
+            }
+        };
+        let Some(bundle) = joined else { return Ok(Ending::Stopped(last)) };
         if !wait_for_name(bus, options, &bundle.run, shutdown).await? {
             return Ok(Ending::Stopped(last));
         }
-        let membership = Membership::new(bus, options, &bundle, epochs.clone())?;
+        let seeker = pool.as_ref().map(PoolPlace::seeker);
+        let membership = match (Membership::new(bus, options, &bundle, epochs.clone(), seeker), seeker) {
+            (Err(why), Some(seeker)) if why.is_of_run() => {
+                seeker.refuse(&bundle.run, &why);
+                continue;
+            }
+            (membership, _) => membership?,
+        };
         // Before anything is simulated, because it might not be delivered.
         if options.behind_standby == BehindStandby::End && membership.shared.policies.is_behind_standby().await? {
             return Ok(Ending::BehindStandby);
@@ -80,7 +119,13 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
         tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
         let WorkerOptions { name, envs, .. } = options;
         (options.notify)(&format!("joined run `{}` as `{name}` with {envs} environments", bundle.run));
-        let reason = membership.run(&bundle, shutdown).await?;
+        let reason = match (membership.run(&bundle, shutdown).await, seeker) {
+            (Err(why), Some(seeker)) if why.is_of_run() => {
+                seeker.refuse(&bundle.run, &why);
+                continue;
+            }
+            (reason, _) => reason?,
+        };
         let summary = membership.summary();
         tracing::info!(actor = %options.name, run = %bundle.run, ?summary, "left the run");
         (options.notify)(&format!("left run `{}`: {}", bundle.run, summary.delivered()));
@@ -88,6 +133,12 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
         match reason {
             EndReason::StopRequested => return Ok(Ending::Stopped(last)),
             EndReason::BehindStandby => return Ok(Ending::BehindStandby),
+            EndReason::Moves(to, deliveries) => {
+                admitted = Some(to);
+                if let Some(pool) = &mut pool {
+                    pool.keep(&bundle.run, deliveries);
+                }
+            }
             EndReason::RunReplaced => tracing::warn!(
                 actor = %options.name,
                 run = %bundle.run,
@@ -135,6 +186,8 @@ async fn is_heard(bus: &Bus, run: &str, name: &str) -> Result<Option<bool>, Acto
 struct Membership<'a> {
     bus: &'a Bus,
     options: &'a WorkerOptions,
+    /// Of an actor of a pool.
+    seeker: Option<Seeker>,
     settings: RunSettings,
     identity: ActorIdentity,
     shared: Shared,
@@ -146,11 +199,14 @@ impl<'a> Membership<'a> {
         options: &'a WorkerOptions,
         bundle: &PolicyBundle,
         epochs: Arc<SeenEpoch>,
+        seeker: Option<&Seeker>,
     ) -> Result<Self, ActorError> {
         let settings = RunSettings::simulated(bundle)?;
         let incarnation = seeds::unique();
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
-        let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle, epochs)?);
+        // An actor of a pool follows no learner to another run: that one must admit it.
+        let named = if options.is_pooled { Some(bundle.run.clone()) } else { options.run.clone() };
+        let policies = Arc::new(PolicyFetcher::new(bus.clone(), named, bundle, epochs)?);
         let receipt_timeout = Duration::from_millis(settings.bus.receipt_timeout_ms);
         let steps = settings.first_fragment_steps(bundle, options.envs)?;
         let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
@@ -162,7 +218,7 @@ impl<'a> Membership<'a> {
             config_hash: bundle.config_hash,
         };
         let shared = Shared { policies, uploader: Arc::new(uploader), progress: Arc::new(Progress::default()) };
-        Ok(Self { bus, options, settings, identity, shared })
+        Ok(Self { bus, options, seeker: seeker.cloned(), settings, identity, shared })
     }
 
     async fn run(&self, bundle: &PolicyBundle, shutdown: &Shutdown) -> Result<EndReason, ActorError> {
@@ -230,11 +286,31 @@ impl<'a> Membership<'a> {
         let mut refreshes = JoinSet::new();
         let (mut place_due, mut place_checks) = (tokio::time::interval(PLACE_CHECK_EVERY), JoinSet::new());
         let mut rate = RateMeter { marks: [(Instant::now(), 0)].into() };
+        let calls = self.seeker.as_ref().map(|_| PoolCalls::open(self.bus, run, actor)).transpose()?;
+        let (mut seek_due, mut seeks) = (tokio::time::interval(SEEK_EVERY), JoinSet::new());
+        let (mut is_learner_there, mut moving) = (true, Moving::default());
         loop {
+            if moving.has_left(&deliveries) {
+                return Ok(EndReason::Moves(moving.to.unwrap_or_default(), deliveries));
+            }
             tokio::select! {
                 () = shutdown.wait() => return Ok(EndReason::StopRequested),
-                produced = physics.next() => {
-                    let ProducedFragment { first, episodes } = produced?;
+                () = released(calls.as_ref()), if moving.may_seek(&seeks) => self.seek(&mut seeks),
+                there = learner(calls.as_ref()), if calls.is_some() => is_learner_there = there,
+                _ = seek_due.tick(), if !is_learner_there && moving.may_seek(&seeks) => self.seek(&mut seeks),
+                Some(found) = seeks.join_next() => {
+                    if let Ok(Ok(Some(run))) = found {
+                        moving.to = Some(run);
+                        physics.finish();
+                    }
+                }
+                () = moving.deadline(), if moving.until.is_some() => {}
+                produced = physics.next(), if moving.until.is_none() => {
+                    let Some(ProducedFragment { first, episodes }) = produced? else {
+                        let patience = if is_learner_there { LEAVE_TIMEOUT } else { Duration::ZERO };
+                        moving.until = Some(Instant::now() + patience);
+                        continue;
+                    };
                     let uploader = self.shared.uploader.clone();
                     deliveries.spawn(async move { uploader.deliver(first).await });
                     for episode in &episodes {
@@ -278,6 +354,14 @@ impl<'a> Membership<'a> {
         }
     }
 
+    /// Starts to look for another run.
+    fn seek(&self, seeks: &mut JoinSet<Result<Option<String>, BusError>>) {
+        if let Some(seeker) = self.seeker.clone() {
+            let run = self.identity.run.clone();
+            seeks.spawn(async move { seeker.seek(Some(&run)).await });
+        }
+    }
+
     /// Returns the interval of polling for a policy, with jitter: actors that joined together do not poll together.
     fn poll_interval(&self) -> Duration {
         let jitter = 0.8 + 0.4 * (self.identity.incarnation % 1000) as f64 / 1000.0;
@@ -318,6 +402,45 @@ impl<'a> Membership<'a> {
             faults: progress.faults.load(Ordering::Relaxed),
             ..self.shared.uploader.stats()
         }
+    }
+}
+
+/// Move of an actor of a pool to another run: it delivers its present fragment first.
+#[derive(Default)]
+struct Moving {
+    /// Run that has admitted it.
+    to: Option<String>,
+    /// Time to which it waits for receipts, once nothing more is simulated.
+    until: Option<Instant>,
+}
+
+impl Moving {
+    fn may_seek<T: 'static>(&self, seeks: &JoinSet<T>) -> bool {
+        self.to.is_none() && seeks.is_empty()
+    }
+
+    fn has_left(&self, deliveries: &Deliveries) -> bool {
+        self.until.is_some_and(|until| deliveries.is_empty() || Instant::now() >= until)
+    }
+
+    async fn deadline(&self) {
+        if let Some(until) = self.until {
+            tokio::time::sleep_until(until.into()).await;
+        }
+    }
+}
+
+async fn released(calls: Option<&PoolCalls>) {
+    match calls {
+        Some(calls) => calls.released().await,
+        None => std::future::pending().await,
+    }
+}
+
+async fn learner(calls: Option<&PoolCalls>) -> bool {
+    match calls {
+        Some(calls) => calls.learner().await,
+        None => std::future::pending().await,
     }
 }
 

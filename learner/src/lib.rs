@@ -4,6 +4,7 @@
 //!
 //! Each folder uses only those above it:
 //! - [`waiting`]: waits of the training thread for a disk or a store, and how other threads see them.
+//! - [`pool`]: the run's part in the pool of actors that belong to no run.
 //! - [`intake`]: validates fragments from the bus, sends receipts, and collects a batch.
 //! - [`checkpoint`]: the whole state of a run in one file.
 //! - [`leadership`]: who may write the state of a run that is in a store.
@@ -16,5 +17,6 @@ pub mod checkpoint;
 pub mod intake;
 pub mod leadership;
 pub mod metrics;
+pub mod pool;
 pub mod training;
 pub mod waiting;

@@ -6,6 +6,7 @@ use crate::{
     Malformed, check_size,
     ident::check_ident,
     limits::{CONTROL_VALUE_CHARS_MAX, SMALL_BYTES_MAX, STATUS_BYTES_MAX},
+    pool::PoolDemand,
     wire,
 };
 
@@ -69,6 +70,7 @@ impl ControlReply {
             return Err(Malformed::field("status", "absent", "the status of the run"));
         };
         check_ident("run", &status.run)?;
+        status.pool.as_ref().map_or(Ok(()), PoolDemand::check)?;
         for actor in &status.actors {
             check_ident("name", &actor.name)?;
         }

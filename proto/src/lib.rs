@@ -11,6 +11,7 @@
 //! - [`receipt`]: answers of the learner to fragments.
 //! - [`version`]: versions of a policy.
 //! - [`stats`]: statistics of an actor.
+//! - [`pool`]: what runs want of actors that belong to none.
 //! - [`pose`]: poses of an actor's body.
 //! - [`page`]: messages of the page in the browser.
 //! - [`task`]: registration of external tasks.
@@ -46,6 +47,7 @@ pub mod limits;
 pub mod onnx;
 pub mod page;
 pub mod policy_pieces;
+pub mod pool;
 pub mod pose;
 pub mod precision;
 pub mod prepared;
@@ -84,6 +86,7 @@ pub use control::{ActorStatus, Command, ControlReply, ControlRequest, PartTime, 
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use policy_pieces::{PolicyPiece, PolicyRequest};
+pub use pool::{PoolAnswer, PoolDemand, PoolJoin};
 pub use pose::Pose;
 pub use precision::Precision;
 pub use prepared::PreparedFragment;

@@ -20,6 +20,9 @@ use crate::{
 pub struct ActorArgs {
     #[command(flatten)]
     client: ClientArgs,
+    /// Belong to no run: join the run on the bus that lacks environments most, and move on when another one needs them more.
+    #[arg(long, conflicts_with = "run")]
+    pool: bool,
     /// Environments of this actor.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     envs: u32,
@@ -49,6 +52,7 @@ pub fn run(args: ActorArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let options = WorkerOptions {
         name: args.client.name()?,
         run: args.client.run()?,
+        is_pooled: args.pool,
         tasks: tasks.clone(),
         envs: args.envs,
         threads: args.threads,

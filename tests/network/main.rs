@@ -18,6 +18,7 @@ mod copies;
 mod external;
 mod faults;
 mod policies;
+mod pool;
 mod poses;
 mod prometheus;
 mod security;

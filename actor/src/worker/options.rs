@@ -11,6 +11,8 @@ use crate::policy_fetcher::Explain;
 pub struct WorkerOptions {
     /// Name of the run to join; without it, the only run of the endpoint.
     pub run: Option<String>,
+    /// Whether it belongs to no run, and joins those that need it.
+    pub is_pooled: bool,
     /// Name of the actor.
     pub name: String,
     /// Tasks that this program can simulate.

@@ -3,7 +3,7 @@
 use std::{
     sync::{
         Arc, Mutex, PoisonError,
-        atomic::{AtomicU64, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
         mpsc as std_mpsc,
     },
     thread::{self, JoinHandle},
@@ -46,7 +46,9 @@ pub(super) struct Shared {
 /// Handle of the running thread.
 pub(super) struct PhysicsThread {
     thread: JoinHandle<()>,
-    credit: std_mpsc::Sender<()>,
+    /// Until it should finish.
+    credit: Option<std_mpsc::Sender<()>>,
+    finishes: Arc<AtomicBool>,
     produced: mpsc::Receiver<Result<ProducedFragment, ActorError>>,
 }
 
@@ -55,11 +57,13 @@ impl PhysicsThread {
     pub(super) fn start(collector: Collector, shared: Shared, in_flight: u32) -> Result<Self, ActorError> {
         let (credit, received_credit) = std_mpsc::channel();
         let (sender, produced) = mpsc::channel(CHANNEL_FRAGMENTS);
+        let finishes = Arc::new(AtomicBool::new(false));
+        let asked = finishes.clone();
         let thread = thread::Builder::new()
             .name("physics".to_string())
-            .spawn(move || collect_fragments(collector, &shared, &received_credit, &sender))
+            .spawn(move || collect_fragments(collector, &shared, &asked, &received_credit, &sender))
             .map_err(ActorError::ThreadStart)?;
-        let physics = Self { thread, credit, produced };
+        let physics = Self { thread, credit: Some(credit), finishes, produced };
         (0..in_flight).for_each(|_| physics.give_credit());
         Ok(physics)
     }
@@ -67,17 +71,27 @@ impl PhysicsThread {
     /// Allows one more fragment.
     pub(super) fn give_credit(&self) {
         // A thread that has ended needs no credit; `next` returns its error.
-        let _ = self.credit.send(());
+        let _ = self.credit.as_ref().map(|credit| credit.send(()));
     }
 
-    /// Returns the next fragment. Cancel-safe.
-    pub(super) async fn next(&mut self) -> Result<ProducedFragment, ActorError> {
-        self.produced.recv().await.unwrap_or(Err(ActorError::PhysicsEnded))
+    /// Lets the thread end after its present fragment, which [`Self::next`] still returns.
+    pub(super) fn finish(&mut self) {
+        self.finishes.store(true, Ordering::Relaxed);
+        self.credit = None;
+    }
+
+    /// Returns the next fragment; `None` after the last one of a thread that should finish. Cancel-safe.
+    pub(super) async fn next(&mut self) -> Result<Option<ProducedFragment>, ActorError> {
+        match self.produced.recv().await {
+            Some(produced) => produced.map(Some),
+            None if self.credit.is_none() => Ok(None),
+            None => Err(ActorError::PhysicsEnded),
+        }
     }
 
     /// Waits until the thread has finished its present fragment, which is discarded.
     pub(super) async fn stop(self) -> Result<(), ActorError> {
-        let Self { thread, credit, produced } = self;
+        let Self { thread, credit, produced, .. } = self;
         drop((credit, produced));
         let joined = tokio::task::spawn_blocking(move || thread.join()).await;
         joined.ok().and_then(Result::ok).ok_or(ActorError::PhysicsPanicked)
@@ -87,11 +101,12 @@ impl PhysicsThread {
 fn collect_fragments(
     mut collector: Collector,
     shared: &Shared,
+    finishes: &AtomicBool,
     credit: &std_mpsc::Receiver<()>,
     sender: &mpsc::Sender<Result<ProducedFragment, ActorError>>,
 ) {
     let (mut encoding, mut env_steps) = (Duration::ZERO, 0);
-    while credit.recv().is_ok() {
+    while credit.recv().is_ok() && !finishes.load(Ordering::Relaxed) {
         let policy = shared.policies.current();
         let (steps, settled_through) = (shared.uploader.fragment_steps(), shared.uploader.settled_through());
         let begun = Instant::now();

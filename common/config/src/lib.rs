@@ -128,6 +128,10 @@ impl Config {
                 format!("at most ppo.learning_rate_max, which is {}", show(&self.ppo.learning_rate_max)),
             );
         }
+        if self.run.envs_min > self.run.envs_max {
+            let most = format!("at most run.envs_max, which is {}", self.run.envs_max);
+            return refuse("run.envs_min", self.run.envs_min.to_string(), most);
+        }
         if self.learner.mode == LearnerMode::Sync && self.rollout.max_in_flight == 2 {
             return refuse("rollout.max_in_flight", "2", "0 or 1 where learner.mode is \"sync\"");
         }

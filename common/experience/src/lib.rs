@@ -6,7 +6,9 @@
 //! - [`delivery`]: an actor's fragments, from produced to durable.
 //! - [`ledger`]: the fragments that a learner has handled, of every actor process.
 //! - [`lineage`]: the policy versions that a learner's newest one descends from.
+//! - [`pool`]: division of actors that belong to no run among the runs.
 
 pub mod delivery;
 pub mod ledger;
 pub mod lineage;
+pub mod pool;

@@ -84,6 +84,11 @@ impl FleetPlan {
         Self { nominal: rule.nominal(envs), rule, actors: HashMap::new(), effort: FleetEffort::default() }
     }
 
+    /// Returns the environments of each actor that has sent a fragment.
+    pub fn envs(&self) -> BTreeMap<String, u32> {
+        self.actors.iter().map(|(name, actor)| (name.clone(), actor.envs as u32)).collect()
+    }
+
     /// Returns the horizon of an actor without a receipt.
     pub fn nominal(&self) -> u32 {
         self.nominal

@@ -15,6 +15,9 @@ const TICK: Duration = Duration::from_millis(50);
 /// Keys outside `[ppo]` that may change during a run, because no actor depends on them.
 const CHANGEABLE: &[&str] = &[
     "run.steps",
+    "run.share",
+    "run.envs_min",
+    "run.envs_max",
     "eval.every_steps",
     "learner.checkpoint_every_updates",
     "learner.keep_checkpoints",
@@ -58,11 +61,13 @@ impl Trainer {
             Command::Pause if self.is_paused => Ok(format!("paused already, after update {updates}")),
             Command::Pause => {
                 self.is_paused = true;
+                self.serving.set_open(false);
                 Ok(format!("paused after update {updates} ({env_steps} env steps); actors keep their fragments"))
             }
             Command::Resume if !self.is_paused => Ok("the run is not paused".to_string()),
             Command::Resume => {
                 self.is_paused = false;
+                self.serving.set_open(true);
                 Ok(format!("resumed after update {updates} ({env_steps} env steps)"))
             }
             Command::Checkpoint => {

@@ -12,6 +12,7 @@ impl Trainer {
         mut self,
         outcome: Result<bool, TrainingError>,
     ) -> Result<(TrainingState, History, bool), TrainingError> {
+        self.serving.leave_pool();
         self.serving.intake.stop(&self.state.lineage);
         self.serving.storage.end_leadership(match outcome {
             Ok(false) => Status::Finished,

@@ -9,10 +9,10 @@ use treadmill_bus::{
     Bus,
     learner::{Admission, Alive, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed},
 };
-use treadmill_config::{Config, LearnerMode};
+use treadmill_config::{Config, LearnerMode, RunConfig};
 use treadmill_experience::lineage::Lineage;
 use treadmill_ppo::{AcceptedFragment, BatchSize, Implausible, TrainedPolicy};
-use treadmill_proto::Fragment;
+use treadmill_proto::{Fragment, PoolDemand};
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use super::{
@@ -25,6 +25,7 @@ use super::{
 use crate::{
     checkpoint::{self, TrainingState, encoding},
     intake::{BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentValidator, HorizonRule, Intake},
+    pool::{Pool, PoolWish},
     waiting::PendingWrites,
 };
 
@@ -36,6 +37,10 @@ pub(super) struct Serving {
     evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,
     pub(super) storage: Storage,
+    /// Part in the pool of actors; a deterministic run and an external task have none.
+    pool: Option<Pool>,
+    /// When the pool last heard of the run's own environments.
+    envs_reported: Instant,
     /// Time that the learner waited for the current batch. Time in a pause does not count.
     pub(super) waited: Duration,
 }
@@ -77,18 +82,29 @@ impl Serving {
 
         let (status, actor_command) = (status::first(state, config), options.report.console.actor_command.clone());
         let control = ControlChannel::open(bus, status, view.clone(), actor_command, pending)?;
-        let stats = StatsFeed::open(bus, &state.run, view)?;
+        let stats = StatsFeed::open(bus, &state.run, view.clone())?;
         let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
         let evaluation = scheduler.transpose()?;
         let policies = PolicyServer::open(bus, policy)?;
-        Ok((Self { intake, policies, evaluation, control, storage, waited: Duration::ZERO }, stats))
+        let demand = PoolDemand {
+            run: state.run.clone(),
+            physics_version: state.physics_version,
+            epoch: options.epoch,
+            ..PoolDemand::default()
+        };
+        let takes_part = !config.run.deterministic && !config.is_external();
+        let pool = takes_part.then(|| Pool::open(bus, demand, PoolWish::of(&config.run), view)).transpose()?;
+        let (envs_reported, waited) = (Instant::now(), Duration::ZERO);
+        Ok((Self { intake, policies, evaluation, control, storage, pool, envs_reported, waited }, stats))
     }
 
     /// Adopts a changed configuration.
     pub(super) fn set_config(&mut self, state: &TrainingState, config: &Config) {
         self.set_rule(state, config);
         self.storage.set_config(config);
+        let RunConfig { share, envs_min, envs_max, .. } = config.run;
+        self.set_wish(|wish| *wish = PoolWish { share, envs_min, envs_max, ..wish.clone() });
         if let Some(evaluation) = &mut self.evaluation {
             evaluation.set_every(config.eval.every_steps, state.counters.env_steps);
         }
@@ -97,6 +113,35 @@ impl Serving {
     /// Fits fragments to another size of batches.
     pub(super) fn set_rule(&mut self, state: &TrainingState, config: &Config) {
         self.intake.fleet.set_rule(HorizonRule::new(config, state.shape().observation, state.shape().action));
+    }
+
+    /// Sets whether the run takes actors of the pool.
+    pub(super) fn set_open(&self, is_open: bool) {
+        self.set_wish(|wish| wish.is_open = is_open);
+    }
+
+    /// Passes the environments of its actors to the pool, now and then.
+    pub(super) fn report_envs(&mut self) {
+        if self.envs_reported.elapsed() >= status::EVERY {
+            self.envs_reported = Instant::now();
+            self.set_wish(|wish| wish.envs = Arc::new(self.intake.fleet.envs()));
+        }
+    }
+
+    fn set_wish(&self, change: impl FnOnce(&mut PoolWish)) {
+        if let Some(pool) = &self.pool {
+            pool.set(change);
+        }
+    }
+
+    /// Returns the part of the run in the pool.
+    pub(super) fn pool(&self) -> Option<PoolDemand> {
+        self.pool.as_ref().map(Pool::demand)
+    }
+
+    /// Lets the actors of the pool go to other runs.
+    pub(super) fn leave_pool(&mut self) {
+        self.pool = None;
     }
 
     /// Whether evaluators can get policies.

@@ -80,10 +80,12 @@ impl Trainer {
             limit: reporting.parts.limit().map(|part| part.name.to_string()).unwrap_or_default(),
             limit_help: reporting.parts.limit().map(|part| part.help.to_string()).unwrap_or_default(),
             parts: parts(&reporting.parts),
+            pool: self.serving.pool(),
             alarms: reporting.alarms.texts(&validator.rejections, Instant::now()),
             ..first(state, &self.config)
         };
         let quarantined = validator.quarantined(Instant::now());
+        self.serving.report_envs();
         self.serving.control.set_status(status, quarantined, is_update);
     }
 }

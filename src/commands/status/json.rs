@@ -1,7 +1,7 @@
 //! Statuses of runs as JSON objects.
 
 use serde_json::json;
-use treadmill_proto::{Phase, RunStatus};
+use treadmill_proto::{Phase, PoolDemand, RunStatus};
 
 use super::plain::state;
 
@@ -81,5 +81,21 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         "alarms": run.alarms,
         "waits_for_storage": run.waits_for_storage,
         "actors": actors,
+        "pool": run.pool.as_ref().map(of_pool),
+    })
+}
+
+fn of_pool(pool: &PoolDemand) -> serde_json::Value {
+    json!({
+        "share": pool.share,
+        "is_open": pool.open,
+        "envs_min": pool.envs_min,
+        "envs_max": pool.envs_max,
+        "envs_own": pool.envs_own,
+        "envs_target": pool.envs_target,
+        "envs": pool.envs,
+        "actors": pool.actors,
+        "pool_actors": pool.pool_actors,
+        "pool_envs": pool.pool_envs,
     })
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use treadmill_proto::{ActorStatus, Phase, RunStatus};
+use treadmill_learner::metrics::table::format_number;
+use treadmill_proto::{ActorStatus, Phase, PoolDemand, RunStatus};
 use treadmill_runtime::numbers::thousands;
 
 use crate::shared::foreign_text::printable;
@@ -19,7 +20,36 @@ pub fn as_text(runs: &[RunStatus]) -> String {
         // Writing into a string cannot fail.
         let _ = describe(&mut out, run);
     }
+    let _ = describe_pool(&mut out, runs);
     out
+}
+
+/// Writes how the runs share a pool of actors, if there is one.
+fn describe_pool(out: &mut String, runs: &[RunStatus]) -> std::fmt::Result {
+    let demands: Vec<&PoolDemand> = runs.iter().filter_map(|run| run.pool.as_ref()).collect();
+    // Learners hear of the same actors, but not at the same moment.
+    let Some(newest) = demands.iter().max_by_key(|demand| demand.pool_actors).filter(|pool| pool.pool_actors > 0)
+    else {
+        return Ok(());
+    };
+    let has: u32 = demands.iter().map(|demand| demand.envs).fold(0, u32::saturating_add);
+    let idle = newest.pool_envs.saturating_sub(has);
+    writeln!(out, "pool: {} actors with {} environments, {idle} without a run", newest.pool_actors, newest.pool_envs)?;
+    writeln!(
+        out,
+        "  {:<24} {:>7} {:>9} {:>6} {:>6} {:>6} {:>7}",
+        "run", "share", "wants", "own", "due", "has", "actors"
+    )?;
+    for demand in demands {
+        let wants = if demand.open { format!("{}–{}", demand.envs_min, demand.envs_max) } else { "none".to_string() };
+        let PoolDemand { run, share, envs_own, envs_target, envs, actors, .. } = demand;
+        writeln!(
+            out,
+            "  {run:<24} {:>7} {wants:>9} {envs_own:>6} {envs_target:>6} {envs:>6} {actors:>7}",
+            format_number(*share)
+        )?;
+    }
+    Ok(())
 }
 
 /// Returns a line for each run.

@@ -5,6 +5,7 @@ mod episodes;
 mod evaluation;
 mod metrics;
 mod policies;
+mod pool;
 mod poses;
 mod presence;
 mod rollouts;
@@ -26,6 +27,7 @@ pub mod learner {
             server::{PolicyServer, PublishedPolicy},
             standby_mark::StandbyMark,
         },
+        pool::{PendingDemand, PendingJoin, PoolEvent, PoolServer},
         presence::{Alive, AliveView},
         rollouts::{
             copies::RolloutCopies,
@@ -50,6 +52,7 @@ pub mod actor {
             fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
             standby_mark::is_behind_standby,
         },
+        pool::{PoolCalls, PoolRoom, ask_to_join, pool_demands, pool_token},
         poses::PosePublisher,
         presence::{is_actor_present, token},
         rollouts::intake::submit,

@@ -29,8 +29,9 @@ pub fn watch_poses(bus: &Bus, run: &str, actor: Option<&str>, capacity: usize) -
 /// Publishes an actor's poses.
 pub struct PosePublisher {
     watched: Watched,
-    publisher: Publisher<'static>,
+    // Before the publisher, with which it would vanish: Zenoh logs an error then.
     _listener: MatchingListener<()>,
+    publisher: Publisher<'static>,
 }
 
 impl PosePublisher {

@@ -37,12 +37,12 @@ pub(super) fn stats_key(run: &str, actor: &str) -> String {
 }
 
 /// Returns `treadmill/{run}/learner`, the key of the learner's token.
-fn learner_key(run: &str) -> String {
+pub(super) fn learner_key(run: &str) -> String {
     format!("treadmill/{run}/learner")
 }
 
 /// Returns the run in a key of [`learner_key`].
-fn run_of(key: &str) -> Option<&str> {
+pub(super) fn run_of(key: &str) -> Option<&str> {
     key.strip_prefix("treadmill/")?.strip_suffix("/learner")
 }
 

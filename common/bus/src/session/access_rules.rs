@@ -87,6 +87,7 @@ pub(super) fn sizes() -> Value {
         size_limit("policies", "query", "treadmill/*/policy/**", SMALL_BYTES_MAX),
         size_limit("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
         size_limit("status", "query", "treadmill/*/status", SMALL_BYTES_MAX),
+        size_limit("pool", "query", "treadmill/*/pool/**", SMALL_BYTES_MAX),
         size_limit("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
         size_limit("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
         size_limit("poses", "put", "treadmill/*/poses/*", POSE_BYTES_MAX),
@@ -137,6 +138,10 @@ const PUBLIC: Keys = &[
 /// Copies of accepted fragments. No wildcard matches them, so every rule names them. Observers may read them: they reveal
 /// little more than episodes and statistics, and a slow link loses copies without delaying training.
 const COPIES: Keys = &["treadmill/*/@rollouts/*"];
+/// Tokens of the pool's actors. No wildcard matches them, either.
+const POOLED: Keys = &["treadmill/@pool/actors/*/*"];
+/// Everything.
+const ALL: Keys = &["treadmill/**", "treadmill/*/@rollouts/*", "treadmill/@pool/actors/*/*"];
 
 /// Allows queries on these keys, and their replies.
 fn query(keys: Keys) -> Vec<Grant> {
@@ -166,7 +171,7 @@ fn grants(role: Role) -> Vec<Grant> {
     let watch = [read_policy.clone(), query(STATUS), subscribe(PUBLIC), subscribe(COPIES), tokens].concat();
     match role {
         Role::Learner | Role::Standby | Role::Router => {
-            vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**", "treadmill/*/@rollouts/*"] }]
+            vec![Grant { flows: BOTH, messages: EVERYTHING, keys: ALL }]
         }
         Role::Actor => {
             const ACTORS: Keys = &["treadmill/*/actors/*"];
@@ -182,7 +187,17 @@ fn grants(role: Role) -> Vec<Grant> {
             let deliver = query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]);
             // Whether the learner hears of an actor whose name is taken.
             let status = query(STATUS);
-            [read_policy, deliver, publish, status, learners].concat()
+            let pool = [
+                query(&["treadmill/*/pool/demand", "treadmill/*/pool/join/*"]),
+                subscribe(&["treadmill/*/pool/release/*", "treadmill/*/pool/room"]),
+                vec![
+                    Grant { flows: IN, messages: &["liveliness_token"], keys: POOLED },
+                    // Whether the learner is still there.
+                    Grant { flows: IN, messages: &["declare_liveliness_subscriber"], keys: LEARNERS },
+                ],
+            ]
+            .concat();
+            [read_policy, deliver, publish, status, learners, pool].concat()
         }
         Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"]), learners].concat(),
         Role::Observer => watch,

@@ -6,7 +6,7 @@ use ratatui::{
     Frame,
     layout::{Constraint, Layout, Rect},
 };
-use treadmill_proto::{Phase, RunStatus};
+use treadmill_proto::{Phase, PoolDemand, RunStatus};
 
 use super::{
     figures::{count, duration, known, number, percent, plain, short},
@@ -95,6 +95,13 @@ fn traffic_line(width: u16, run: &Run) -> Pieces {
     }
     if let Some(share) = status.idle_share {
         pieces.push(format!("{} idle", percent(share)), QUIET);
+    }
+    if let Some(pool) = status.pool.as_ref().filter(|pool| pool.pool_actors > 0) {
+        let PoolDemand { envs, envs_target, pool_envs, share, .. } = pool;
+        pieces.push(
+            format!("pool: {envs} of {envs_target} envs due, {pool_envs} in all, share {}", number(*share)),
+            STRONG,
+        );
     }
     pieces.push(format!("learner {} MB", number(status.resident_bytes as f64 / 1e6)), QUIET);
     pieces

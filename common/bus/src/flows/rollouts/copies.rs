@@ -39,9 +39,10 @@ pub struct RolloutCopies {
     watched: Watched,
     waiting_bytes: Arc<AtomicUsize>,
     queue: SyncSender<(String, ZBytes)>,
+    // Before the publisher, with which it would vanish: Zenoh logs an error then.
+    _listener: MatchingListener<()>,
     /// Reports whether a subscriber exists; it publishes nothing.
     _publisher: Publisher<'static>,
-    _listener: MatchingListener<()>,
 }
 
 impl RolloutCopies {

@@ -1,0 +1,377 @@
+//! Pool: actors that belong to no run find one that needs them, and its learner admits and releases them.
+//!
+//! An actor that works sends nothing of this, and only learners hear what others want, so that a large pool costs the bus
+//! next to nothing.
+
+use std::{
+    collections::BTreeMap,
+    sync::{
+        Arc, Mutex, PoisonError,
+        mpsc::{Receiver, SyncSender, sync_channel},
+    },
+    time::Duration,
+};
+
+use treadmill_proto::{
+    PoolAnswer, PoolDemand, PoolJoin,
+    ident::check_ident,
+    limits::{ENVS_MAX, SMALL_BYTES_MAX},
+};
+use zenoh::{
+    Wait,
+    bytes::ZBytes,
+    handlers::{RingChannel, RingChannelHandler},
+    pubsub::Subscriber,
+    qos::Priority,
+    query::Query,
+    sample::{Sample, SampleKind},
+};
+
+use super::{
+    presence::{learner_key, run_of},
+    shared::{ask, last_part, next_valid, publisher, reply_on, serve},
+    subscription::{Feed, observe},
+};
+use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
+
+/// Events of a learner that may wait. Further ones are dropped: demands are repeated, and actors ask again.
+const QUEUE: usize = 4096;
+/// Most actors of a pool that are tracked; further ones find no place.
+const ACTORS_MAX: usize = 4096;
+/// Most demands that an actor or observer takes from one question.
+const RUNS_MAX: usize = 1024;
+
+/// Returns `treadmill/{run}/pool/demand`.
+fn demand_key(run: &str) -> String {
+    format!("treadmill/{run}/pool/demand")
+}
+
+/// Returns `treadmill/{run}/pool/join/{actor}`.
+fn join_key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/pool/join/{actor}")
+}
+
+/// Returns `treadmill/{run}/pool/release/{actor}`.
+fn release_key(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/pool/release/{actor}")
+}
+
+/// Returns `treadmill/{run}/pool/room`.
+fn room_key(run: &str) -> String {
+    format!("treadmill/{run}/pool/room")
+}
+
+/// Returns `treadmill/@pool/actors/{actor}/{envs}`, which is no key of a run: names of runs have no `@`.
+fn actor_key(actor: &str, envs: &str) -> String {
+    format!("treadmill/@pool/actors/{actor}/{envs}")
+}
+
+/// Event of a learner's pool.
+pub enum PoolEvent {
+    /// Another learner published its demand.
+    Demand(PoolDemand),
+    /// The learner of this run is gone.
+    Gone(String),
+    /// An actor would join.
+    Join(PendingJoin),
+    /// An actor or observer asks for the demand.
+    Asked(PendingDemand),
+    /// An actor came to the pool, or left it.
+    Actors,
+}
+
+/// Actor that waits for the answer whether it is admitted.
+pub struct PendingJoin {
+    /// Name of the actor.
+    pub actor: String,
+    /// What it asked.
+    pub join: PoolJoin,
+    query: Query,
+}
+
+impl PendingJoin {
+    /// Answers.
+    pub fn answer(self, run: &str, admitted: bool) {
+        let answer = PoolAnswer { admitted }.to_bytes();
+        reply_on(&self.query, &join_key(run, &self.actor), answer, "answer of the pool");
+    }
+}
+
+/// Question for the demand.
+pub struct PendingDemand {
+    query: Query,
+}
+
+impl PendingDemand {
+    /// Answers.
+    pub fn answer(self, demand: &PoolDemand) {
+        reply_on(&self.query, &demand_key(&demand.run), demand.to_bytes(), "demand");
+    }
+}
+
+/// A learner's side of the pool.
+pub struct PoolServer {
+    bus: Bus,
+    run: String,
+    events: Receiver<PoolEvent>,
+    actors: Arc<Mutex<BTreeMap<String, u32>>>,
+    publish_demand: Box<dyn Fn(Vec<u8>) + Send>,
+    publish_room: Box<dyn Fn(Vec<u8>) + Send>,
+    _subscribers: [Subscriber<()>; 3],
+}
+
+impl PoolServer {
+    /// Opens the flows of a run.
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
+        let (sender, events) = sync_channel(QUEUE);
+        let actors = Arc::default();
+        let demands = bus
+            .session
+            .declare_subscriber(demand_key("*"))
+            .callback(of_demands(sender.clone(), run.to_string()))
+            .wait()
+            .map_err(BusError::flow("listening to the demands of runs"))?;
+        let tokens = bus
+            .session
+            .liveliness()
+            .declare_subscriber(actor_key("*", "*"))
+            .history(true)
+            .callback(of_tokens(sender.clone(), Arc::clone(&actors)))
+            .wait()
+            .map_err(BusError::flow("watching the actors of the pool"))?;
+        let gone = sender.clone();
+        let learners = bus
+            .session
+            .liveliness()
+            .declare_subscriber(learner_key("*"))
+            .callback(move |sample: Sample| {
+                if let (SampleKind::Delete, Some(run)) = (sample.kind(), run_of(sample.key_expr().as_str())) {
+                    drop(gone.try_send(PoolEvent::Gone(run.to_string())));
+                }
+            })
+            .wait()
+            .map_err(BusError::flow("watching learners"))?;
+        let (asked, refusals) = (sender.clone(), RateLimitedLog::default());
+        serve(bus, demand_key(run), "answering with the demand", move |query| {
+            drop(asked.try_send(PoolEvent::Asked(PendingDemand { query })));
+        })?;
+        serve(bus, join_key(run, "*"), "admitting actors", move |query| {
+            let actor = last_part(query.key_expr().as_str()).to_string();
+            let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
+            match check_ident("actor", &actor).and_then(|()| PoolJoin::decode_checked(&payload)) {
+                Ok(join) => drop(sender.try_send(PoolEvent::Join(PendingJoin { actor, join, query }))),
+                Err(error) => refusals.emit(|| tracing::warn!(%error, "request to join rejected")),
+            }
+        })?;
+        Ok(Self {
+            bus: bus.clone(),
+            run: run.to_string(),
+            events,
+            actors,
+            publish_demand: Box::new(publisher(bus, demand_key(run))?),
+            publish_room: Box::new(publisher(bus, room_key(run))?),
+            _subscribers: [demands, tokens, learners],
+        })
+    }
+
+    /// Returns the next event, or `None` if none comes within `timeout`.
+    pub fn next(&self, timeout: Duration) -> Option<PoolEvent> {
+        self.events.recv_timeout(timeout).ok()
+    }
+
+    /// Returns the environments of every actor of the pool.
+    pub fn actors(&self) -> BTreeMap<String, u32> {
+        self.actors.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Publishes the demand to the other learners.
+    pub fn publish(&self, demand: &PoolDemand) {
+        (self.publish_demand)(demand.to_bytes());
+    }
+
+    /// Calls actors that have no run.
+    pub fn call_idle(&self) {
+        (self.publish_room)(Vec::new());
+    }
+
+    /// Lets an actor look for another run.
+    pub fn release(&self, actor: &str) {
+        let key = release_key(&self.run, actor);
+        if let Err(error) = self.bus.session.put(key, Vec::new()).priority(Priority::DataHigh).wait() {
+            tracing::debug!(%error, "release not sent");
+        }
+    }
+}
+
+fn of_demands(sender: SyncSender<PoolEvent>, own: String) -> impl Fn(Sample) + Send + Sync {
+    let rejections = RateLimitedLog::default();
+    move |sample: Sample| {
+        if sample.payload().len() > SMALL_BYTES_MAX {
+            return;
+        }
+        match PoolDemand::decode_checked(&sample.payload().to_bytes()) {
+            Ok(demand) if demand.run == own => {}
+            Ok(demand) if sample.key_expr().as_str() == demand_key(&demand.run) => {
+                drop(sender.try_send(PoolEvent::Demand(demand)));
+            }
+            Ok(demand) => rejections.emit(|| tracing::warn!(run = demand.run, "demand on the key of another run")),
+            Err(error) => rejections.emit(|| tracing::warn!(%error, "demand of a run rejected")),
+        }
+    }
+}
+
+fn of_tokens(
+    sender: SyncSender<PoolEvent>,
+    actors: Arc<Mutex<BTreeMap<String, u32>>>,
+) -> impl Fn(Sample) + Send + Sync {
+    move |sample: Sample| {
+        let Some((name, envs)) = read_token(sample.key_expr().as_str()) else { return };
+        let mut actors = actors.lock().unwrap_or_else(PoisonError::into_inner);
+        match sample.kind() {
+            SampleKind::Put if actors.len() < ACTORS_MAX || actors.contains_key(name) => {
+                actors.insert(name.to_string(), envs);
+            }
+            // The token of its successor of this name may have come first.
+            SampleKind::Delete if actors.get(name) == Some(&envs) => drop(actors.remove(name)),
+            _ => return,
+        }
+        drop(sender.try_send(PoolEvent::Actors));
+    }
+}
+
+/// Returns name and environments of an actor from its token.
+fn read_token(key: &str) -> Option<(&str, u32)> {
+    let (name, envs) = key.strip_prefix("treadmill/@pool/actors/")?.split_once('/')?;
+    let envs: u32 = envs.parse().ok()?;
+    (check_ident("actor", name).is_ok() && (1..=ENVS_MAX).contains(&envs)).then_some((name, envs))
+}
+
+/// Declares the token of an actor in the pool, which lasts until it is dropped.
+///
+/// # Errors
+/// If the bus fails.
+pub fn pool_token(bus: &Bus, actor: &str, envs: u32) -> Result<impl Send + Sync + use<>, BusError> {
+    let key = actor_key(actor, &envs.to_string());
+    bus.session
+        .liveliness()
+        .declare_token(key)
+        .wait()
+        .map_err(BusError::flow("declaring the actor's token in the pool"))
+}
+
+/// Returns the demand of every learner that answers, one for each run: that of the newest epoch.
+///
+/// # Errors
+/// If the bus fails.
+pub async fn pool_demands(bus: &Bus, timeout: Duration) -> Result<Vec<PoolDemand>, BusError> {
+    let replies = ask(bus, demand_key("*"), Vec::new(), timeout, Priority::Data, "asking what runs want")?;
+    let mut runs = BTreeMap::<String, PoolDemand>::new();
+    while let Some(demand) = next_valid(&replies, "demand", |bytes| PoolDemand::decode_checked(&bytes)).await {
+        let known = runs.get(&demand.run);
+        if known.is_none_or(|known| known.epoch <= demand.epoch) && (known.is_some() || runs.len() < RUNS_MAX) {
+            runs.insert(demand.run.clone(), demand);
+        }
+    }
+    Ok(runs.into_values().collect())
+}
+
+/// Asks a run for a place. No answer counts as no.
+///
+/// # Errors
+/// If the bus fails.
+pub async fn ask_to_join(
+    bus: &Bus,
+    run: &str,
+    actor: &str,
+    join: &PoolJoin,
+    timeout: Duration,
+) -> Result<bool, BusError> {
+    let replies = ask(bus, join_key(run, actor), join.to_bytes(), timeout, Priority::Data, "asking for a place")?;
+    let decode = |bytes: bytes::Bytes| PoolAnswer::decode_checked(&bytes);
+    while let Some(answer) = next_valid(&replies, "answer of the pool", decode).await {
+        if answer.admitted {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Calls to an actor that works for a run.
+pub struct PoolCalls {
+    release: Feed,
+    learner: Subscriber<RingChannelHandler<Sample>>,
+}
+
+impl PoolCalls {
+    /// Subscribes to the releases of an actor, and to the token of the run's learner.
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub fn open(bus: &Bus, run: &str, actor: &str) -> Result<Self, BusError> {
+        let release = observe(bus, &release_key(run, actor), 1)?;
+        let learner = bus
+            .session
+            .liveliness()
+            .declare_subscriber(learner_key(run))
+            .history(true)
+            .with(RingChannel::new(4))
+            .wait()
+            .map_err(BusError::flow("watching the learner"))?;
+        Ok(Self { release, learner })
+    }
+
+    /// Waits until the learner releases the actor. Cancel-safe.
+    pub async fn released(&self) {
+        if self.release.arrival().await.is_none() {
+            std::future::pending().await
+        }
+    }
+
+    /// Waits until the learner comes or goes; returns whether it is there. Cancel-safe.
+    pub async fn learner(&self) -> bool {
+        match self.learner.recv_async().await {
+            Ok(sample) => sample.kind() == SampleKind::Put,
+            Err(_) => std::future::pending().await,
+        }
+    }
+}
+
+/// Calls of runs that have room to actors that have no run.
+pub struct PoolRoom {
+    feed: Feed,
+}
+
+impl PoolRoom {
+    /// Subscribes to the calls.
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub fn open(bus: &Bus) -> Result<Self, BusError> {
+        Ok(Self { feed: observe(bus, &room_key("*"), 1)? })
+    }
+
+    /// Waits for a call. Cancel-safe.
+    pub async fn called(&self) {
+        if self.feed.arrival().await.is_none() {
+            std::future::pending().await
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_token_names_actor_and_environments() {
+        assert_eq!(read_token(&actor_key("host-1", "32")), Some(("host-1", 32)));
+        for bad in ["0", "65537", "-1", "many", "3/2"] {
+            assert_eq!(read_token(&actor_key("host-1", bad)), None, "{bad}");
+        }
+        assert_eq!(read_token(&actor_key("Host", "32")), None);
+        assert_eq!(read_token("treadmill/run/actors/host-1"), None);
+    }
+}
