@@ -18,10 +18,10 @@ missing() {
 }
 
 if docker compose version >/dev/null 2>&1; then
-    docker compose -f docker-compose.yml --profile observability --profile store config -q
+    docker compose -f docker-compose.yml --profile observability --profile store --profile sweep config -q
     echo 'docker compose reads docker-compose.yml'
 elif command -v docker-compose >/dev/null; then
-    docker-compose -f docker-compose.yml --profile observability --profile store config -q
+    docker-compose -f docker-compose.yml --profile observability --profile store --profile sweep config -q
     echo 'docker-compose reads docker-compose.yml'
 else
     missing 'Compose v2 and docker-compose are missing: docker-compose.yml is NOT CHECKED.'
@@ -44,12 +44,16 @@ fi
 
 validate=${TREADMILL_KUBERNETES_VALIDATE:-kubernetes-validate}
 if command -v "$validate" >/dev/null; then
-    # kustomization.yaml must list every manifest.
-    files=$(sed -n '/^resources:/,/^[a-z]*:$/s/^  - \(.*\.yaml\)$/kubernetes\/\1/p' kubernetes/kustomization.yaml)
-    present=$(cd kubernetes && for file in *.yaml; do
-        case $file in kustomization.yaml | prometheus-adapter.yaml) ;; *) echo "kubernetes/$file" ;; esac
-    done)
-    [ "$(sort <<<"$files")" = "$(sort <<<"$present")" ] || { echo 'kustomization.yaml does not list every file' >&2; exit 1; }
+    files=
+    for folder in kubernetes kubernetes/sweep; do
+        # kustomization.yaml must list every manifest.
+        listed=$(sed -n "/^resources:/,/^[a-z]*:\$/s|^  - \(.*\.yaml\)\$|$folder/\1|p" "$folder/kustomization.yaml")
+        present=$(cd "$folder" && for file in *.yaml; do
+            case $file in kustomization.yaml | prometheus-adapter.yaml) ;; *) echo "$folder/$file" ;; esac
+        done)
+        [ "$(sort <<<"$listed")" = "$(sort <<<"$present")" ] || { echo "$folder: kustomization.yaml does not list every file" >&2; exit 1; }
+        files="$files $listed"
+    done
     for version in 1.28 1.31 1.34 1.37; do
         # shellcheck disable=SC2086 # one word each
         "$validate" --kubernetes-version "$version" --strict --quiet $files

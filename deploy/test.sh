@@ -41,7 +41,7 @@ cleanup() {
         compose logs --no-color --tail 5 | cut -c1-300
     fi >&2
     [ -z "$scraper" ] || kill "$scraper"
-    [ -z "${composer:-}" ] || compose --profile store down -v --remove-orphans -t 1 >/dev/null 2>&1
+    [ -z "${composer:-}" ] || compose --profile store --profile sweep down -v --remove-orphans -t 1 >/dev/null 2>&1
     if [ -n "$engine" ]; then
         kill "$engine"
         wait "$engine"
@@ -267,6 +267,22 @@ await 'training after the restart' trains_beyond "$saved"
 docker logs "$learner" 2>&1 | grep "resuming at $shown env steps" >/dev/null || fail "the learner did not resume at $saved steps"
 say "stopped, saved at $saved steps, every container exited with 0; resumed"
 [ "$(value bus/fragments_malformed)" -le 3 ] || fail 'fragments of valid actors were rejected'
+
+# --- a sweep with a pool ---------------------------------------------------------------------------------------------------
+compose down -v --remove-orphans -t 1 >/dev/null 2>&1
+TREADMILL_STEPS=40000 TREADMILL_SET='' compose --profile sweep up -d --no-build --scale pool=2 sweep pool 2>"$work/up.log" ||
+    { cat "$work/up.log" >&2; fail 'compose up with the profile sweep failed'; }
+sweep=$(id sweep)
+ended() { [ "$(docker inspect -f '{{.State.Status}}' "$sweep")" = exited ]; }
+await 'the end of the sweep' ended
+code=$(docker inspect -f '{{.State.ExitCode}}' "$sweep")
+docker logs "$sweep" 2>&1 | grep '^Best: ' >/dev/null && [ "$code" = 0 ] ||
+    { docker logs --tail 20 "$sweep" >&2; fail "the sweep ended with $code"; }
+joined=$(for actor in $(compose --profile sweep ps -q pool 2>/dev/null); do docker logs "$actor" 2>&1; done |
+    sed -n 's/.*joined run `\(sweep-trial-[123]\)`.*/\1/p' | sort -u | wc -l)
+[ "$joined" = 3 ] || fail "the pool served $joined of 3 trials"
+compose --profile sweep down -v --remove-orphans -t 1 >/dev/null 2>&1
+say 'a pool of two actors served three trials'
 
 # --- a lost learner --------------------------------------------------------------------------------------------------------
 weed=$(dirname "$(command -v "$python")")/weed

@@ -8,6 +8,7 @@
 //! - [`rollout`]: collects fragments of T control steps.
 //! - [`delivery`]: sends fragments until each has a receipt, and keeps accepted ones until they are durable.
 //! - [`policy_fetcher`]: joins a run and fetches the newest policy.
+//! - [`pool`]: an actor that belongs to no run finds one.
 //! - [`poses`]: poses of the first environment for observers.
 //! - [`worker`]: one actor process.
 //! - [`agent`]: agents that an evaluation can play: the trained policy and two baselines.
@@ -25,6 +26,7 @@ pub mod evaluation;
 pub mod evaluator;
 pub mod identity;
 pub mod policy_fetcher;
+pub mod pool;
 pub mod poses;
 pub mod rollout;
 pub mod settings;

@@ -1,19 +1,19 @@
 //! One actor process: joins a run, collects and delivers fragments, reports on itself, and rejoins when the run is replaced.
 
+mod moving;
 mod options;
 mod physics_thread;
-mod pooled;
+mod rate_meter;
 
 use std::{
-    collections::VecDeque,
     sync::{Arc, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
 
 use tokio::task::JoinSet;
 use treadmill_bus::{
-    Bus, BusError,
-    actor::{PoolCalls, PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
+    Bus,
+    actor::{PosePublisher, is_actor_present, publish_episodes, publish_stats, token, watch_announcements},
     observer::{newest_of_each_run, statuses},
 };
 use treadmill_humanoid::task::Reached;
@@ -23,8 +23,9 @@ use treadmill_runtime::{epoch::SeenEpoch, seeds, shutdown::Shutdown};
 pub use options::{ActorSummary, BehindStandby, WorkerOptions};
 
 use self::{
+    moving::Moving,
     physics_thread::{PhysicsThread, ProducedFragment, Progress, Shared},
-    pooled::{Deliveries, PoolPlace, Seeker},
+    rate_meter::RateMeter,
 };
 use crate::{
     ActorError,
@@ -32,6 +33,7 @@ use crate::{
     environments::{Environments, SeedSource},
     identity::ActorIdentity,
     policy_fetcher::{PolicyFetcher, Refresh, join_run},
+    pool::{Deliveries, PoolPlace, Seeker},
     poses::{self, PoseSampler},
     rollout::Collector,
     settings::RunSettings,
@@ -47,14 +49,6 @@ const PLACE_CHECK_EVERY: Duration = Duration::from_secs(10);
 
 /// Longest wait of an actor of a pool for the policy of a run that has admitted it.
 const JOIN_TIMEOUT: Duration = Duration::from_secs(10);
-/// Longest wait for the receipts of the last fragments of an actor that moves to another run. Later ones come meanwhile.
-const LEAVE_TIMEOUT: Duration = Duration::from_secs(1);
-/// Interval of looking for another run while the learner is gone.
-const SEEK_EVERY: Duration = Duration::from_secs(1);
-
-/// Time over which the speed in the statistics is measured, as the learner measures its own.
-const RATE_WINDOW: Duration = Duration::from_secs(10);
-
 /// Reason for which a membership in a run ended.
 enum EndReason {
     StopRequested,
@@ -85,7 +79,7 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
         let run = match (&mut pool, admitted.take()) {
             (None, _) => options.run.clone(),
             (Some(_), Some(run)) => Some(run),
-            (Some(pool), None) => match pool.find(shutdown).await? {
+            (Some(pool), None) => match pool.find(options.notify, shutdown).await? {
                 None => return Ok(Ending::Stopped(last)),
                 found => found,
             },
@@ -94,7 +88,7 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
         let joined = match &mut pool {
             None => joining.await?,
             Some(pool) => {
-                pool.settle(run.as_deref().unwrap_or_default(), LEAVE_TIMEOUT).await;
+                pool.settle(run.as_deref().unwrap_or_default(), moving::LEAVE_TIMEOUT).await;
                 // The run may have ended since.
                 let Ok(joined) = tokio::time::timeout(JOIN_TIMEOUT, joining).await else { continue };
                 joined?
@@ -285,30 +279,23 @@ impl<'a> Membership<'a> {
         let mut deliveries = JoinSet::new();
         let mut refreshes = JoinSet::new();
         let (mut place_due, mut place_checks) = (tokio::time::interval(PLACE_CHECK_EVERY), JoinSet::new());
-        let mut rate = RateMeter { marks: [(Instant::now(), 0)].into() };
-        let calls = self.seeker.as_ref().map(|_| PoolCalls::open(self.bus, run, actor)).transpose()?;
-        let (mut seek_due, mut seeks) = (tokio::time::interval(SEEK_EVERY), JoinSet::new());
-        let (mut is_learner_there, mut moving) = (true, Moving::default());
+        let mut rate = RateMeter::start();
+        let mut moving = Moving::new(self.bus, run, actor, self.seeker.as_ref())?;
         loop {
             if moving.has_left(&deliveries) {
-                return Ok(EndReason::Moves(moving.to.unwrap_or_default(), deliveries));
+                return Ok(EndReason::Moves(moving.to(), deliveries));
             }
             tokio::select! {
                 () = shutdown.wait() => return Ok(EndReason::StopRequested),
-                () = released(calls.as_ref()), if moving.may_seek(&seeks) => self.seek(&mut seeks),
-                there = learner(calls.as_ref()), if calls.is_some() => is_learner_there = there,
-                _ = seek_due.tick(), if !is_learner_there && moving.may_seek(&seeks) => self.seek(&mut seeks),
-                Some(found) = seeks.join_next() => {
-                    if let Ok(Ok(Some(run))) = found {
-                        moving.to = Some(run);
+                // After its present fragment, for which it has the policy.
+                is_admitted = moving.next() => {
+                    if is_admitted {
                         physics.finish();
                     }
                 }
-                () = moving.deadline(), if moving.until.is_some() => {}
-                produced = physics.next(), if moving.until.is_none() => {
+                produced = physics.next(), if moving.simulates() => {
                     let Some(ProducedFragment { first, episodes }) = produced? else {
-                        let patience = if is_learner_there { LEAVE_TIMEOUT } else { Duration::ZERO };
-                        moving.until = Some(Instant::now() + patience);
+                        moving.wait_for_receipts();
                         continue;
                     };
                     let uploader = self.shared.uploader.clone();
@@ -351,14 +338,6 @@ impl<'a> Membership<'a> {
                 }
                 _ = stats_due.tick() => publish_stats(self.stats(&mut rate).to_bytes()),
             }
-        }
-    }
-
-    /// Starts to look for another run.
-    fn seek(&self, seeks: &mut JoinSet<Result<Option<String>, BusError>>) {
-        if let Some(seeker) = self.seeker.clone() {
-            let run = self.identity.run.clone();
-            seeks.spawn(async move { seeker.seek(Some(&run)).await });
         }
     }
 
@@ -405,45 +384,6 @@ impl<'a> Membership<'a> {
     }
 }
 
-/// Move of an actor of a pool to another run: it delivers its present fragment first.
-#[derive(Default)]
-struct Moving {
-    /// Run that has admitted it.
-    to: Option<String>,
-    /// Time to which it waits for receipts, once nothing more is simulated.
-    until: Option<Instant>,
-}
-
-impl Moving {
-    fn may_seek<T: 'static>(&self, seeks: &JoinSet<T>) -> bool {
-        self.to.is_none() && seeks.is_empty()
-    }
-
-    fn has_left(&self, deliveries: &Deliveries) -> bool {
-        self.until.is_some_and(|until| deliveries.is_empty() || Instant::now() >= until)
-    }
-
-    async fn deadline(&self) {
-        if let Some(until) = self.until {
-            tokio::time::sleep_until(until.into()).await;
-        }
-    }
-}
-
-async fn released(calls: Option<&PoolCalls>) {
-    match calls {
-        Some(calls) => calls.released().await,
-        None => std::future::pending().await,
-    }
-}
-
-async fn learner(calls: Option<&PoolCalls>) -> bool {
-    match calls {
-        Some(calls) => calls.learner().await,
-        None => std::future::pending().await,
-    }
-}
-
 /// Continues from the state that a checkpoint holds, or begins new episodes if that does not fit.
 fn restore(collector: &mut Collector, state: &ActorState, actor: &str) {
     match collector.restore_state(state) {
@@ -453,23 +393,5 @@ fn restore(collector: &mut Collector, state: &ActorState, actor: &str) {
             %reason,
             "the actor state in the checkpoint does not fit: the actor begins new episodes, and the run is not bit-identical"
         ),
-    }
-}
-
-/// Measures environment steps per second between two updates.
-struct RateMeter {
-    /// Times and environment steps of the last statistics.
-    marks: VecDeque<(Instant, u64)>,
-}
-
-impl RateMeter {
-    fn update(&mut self, env_steps: u64) -> f64 {
-        let now = Instant::now();
-        self.marks.push_back((now, env_steps));
-        while self.marks.get(1).is_some_and(|(at, _)| now.duration_since(*at) > RATE_WINDOW) {
-            self.marks.pop_front();
-        }
-        let (since, before) = self.marks[0];
-        (env_steps - before) as f64 / now.duration_since(since).as_secs_f64().max(1e-9)
     }
 }

@@ -6,6 +6,7 @@
 //! - [`fleet`]: a real learner with real updates. [`measurement`] starts it and marks the measured window, [`figures`]
 //!   computes what is printed, from the metrics that [`run_metrics`] follows.
 //! - [`played`]: processes of played actors, for both.
+//! - [`pool`]: a pool of played actors among played learners.
 //! - [`process`]: child processes, and their use of the machine.
 
 mod bus;
@@ -14,6 +15,7 @@ mod fleet;
 mod host;
 mod measurement;
 mod played;
+mod pool;
 mod process;
 mod raw;
 mod run_metrics;
@@ -67,6 +69,15 @@ enum Benchmark {
     /// `nothing_lost`: fragments produced = accepted + dropped by rule + in flight, and all accepted ones but the last
     /// batch were learnt from.
     Fleet(fleet::FleetArgs),
+    /// Pool of played actors among played learners that come and go.
+    ///
+    /// `distance_mean`: the sum over runs of the difference between what they have and their fair share, / the pool's
+    /// actors, sampled four times a second; `distance_before_change_mean`: the same just before each change.
+    /// `idle_actors_mean`: actors that had no run for more than 3 s. `move_median_s`: from the call to leave, or the
+    /// notice that the learner is gone, to the token in the next run; nothing is simulated. `pool_bytes_per_s`: bytes on
+    /// the loopback interface, all ends together, beyond those of the same sessions without a pool; nothing else may
+    /// use it.
+    Pool(pool::PoolArgs),
     /// Some of the played actors.
     #[command(hide = true)]
     Played(played::PlayedArgs),
@@ -78,6 +89,7 @@ fn main() -> ExitCode {
         Benchmark::Bus(args) => bus::run(&args),
         Benchmark::Host(args) => host::run(&args),
         Benchmark::Fleet(args) => fleet::run(&args),
+        Benchmark::Pool(args) => pool::run(&args),
         Benchmark::Played(args) => played::run(&args),
     };
     exit_code::exit_code(outcome)

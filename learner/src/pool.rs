@@ -16,8 +16,8 @@ use treadmill_bus::{
     learner::{AliveView, PoolEvent, PoolServer},
 };
 use treadmill_config::RunConfig;
-use treadmill_experience::pool::{HEARD, PoolShare};
-use treadmill_proto::PoolDemand;
+use treadmill_experience::pool::PoolShare;
+use treadmill_proto::{PoolDemand, pool::DEMAND_LASTS};
 
 /// Longest wait for an event.
 const TICK: Duration = Duration::from_millis(100);
@@ -26,7 +26,7 @@ const PUBLISH_MIN: Duration = Duration::from_millis(200);
 const PUBLISH_MAX: Duration = Duration::from_secs(5);
 /// Time between two calls for actors, or to one that should leave: a call may get lost.
 const CALL_EVERY: Duration = Duration::from_secs(1);
-const _: () = assert!(PUBLISH_MAX.as_secs() * 3 < HEARD.as_secs());
+const _: () = assert!(PUBLISH_MAX.as_secs() * 3 < DEMAND_LASTS.as_secs());
 
 /// What the training thread says about the run.
 #[derive(Clone, Debug)]

@@ -1,5 +1,7 @@
 //! Messages of the pool: what runs want, and which actors they admit.
 
+use std::time::Duration;
+
 use prost::Message;
 
 use crate::{
@@ -11,6 +13,8 @@ use crate::{
 
 pub use wire::{PoolAnswer, PoolDemand, PoolJoin};
 
+/// Time after which a run whose demand is not heard any more does not count. Learners repeat theirs more often.
+pub const DEMAND_LASTS: Duration = Duration::from_secs(20);
 /// Largest weight of a run.
 pub const SHARE_MAX: f64 = 1000.0;
 
@@ -29,6 +33,11 @@ impl PoolDemand {
         check_size(KIND, bytes.len(), SMALL_BYTES_MAX)?;
         let demand = Self::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         demand.check().map(|()| demand)
+    }
+
+    /// Returns the environments beyond those of its own actors that the run could use.
+    pub fn envs_wanted(&self) -> u32 {
+        if self.open && self.share > 0.0 { self.envs_max.saturating_sub(self.envs_own) } else { 0 }
     }
 
     pub(crate) fn check(&self) -> Result<(), Malformed> {

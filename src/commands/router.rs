@@ -68,7 +68,7 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
             say(&format!("dialling  {}, again after each loss", options.connect.join(", ")));
         }
         bus.log_links(shutdown.clone())?;
-        let page = page.map(|page| page.serve(Arc::new(LinkPage::of(&bus, &options.connect)))).transpose()?;
+        let page = page.map(|page| page.serve(Arc::new(LinkPage::of(&bus, &options.connect)?))).transpose()?;
         if let Some(address) = page {
             say(&format!("metrics   http://{address}/metrics"));
         }

@@ -9,15 +9,15 @@ use std::{
 /// Most words of a page.
 const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2030), ("CHANGELOG.md", 680)];
 /// Most words of all pages together, generated ones included.
-const ALL_WORDS_MAX: usize = 39_700;
+const ALL_WORDS_MAX: usize = 41_000;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [106_500, 72_300];
+const RUST_LINES_MAX: [usize; 2] = [109_500, 74_700];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
-const FILES_MAX: usize = 1_100;
+const FILES_MAX: usize = 1_150;
 /// Most characters of a line of a comment.
 const LINE_CHARS_MAX: usize = 125;
 /// Words and phrases in place of a concrete subject or verb.
@@ -193,6 +193,11 @@ fn forbidden(text: &str) -> Vec<(usize, &'static str)> {
     let phrases = FORBIDDEN.map(|phrase| (phrase, phrase.split(' ').collect::<Vec<_>>()));
     let mut found = Vec::new();
     for start in 0..tokens.len() {
+        // A library may name a method so.
+        let next = tokens.get(start + 1).map(|(_, token)| token.as_str());
+        if start > 0 && tokens[start - 1].1 == "." && next == Some("(") {
+            continue;
+        }
         for (phrase, words) in &phrases {
             let here = tokens[start..].iter().map(|(_, word)| word.as_str());
             if tokens.len() - start >= words.len() && here.zip(words).all(|(word, wanted)| word == *wanted) {

@@ -63,13 +63,19 @@ fn sweeps_work_as_printed() {
         fs::write(folder.path().join(name), block.replace("interval_steps = 500000", "interval_steps = 1000")).unwrap();
     }
     let commands = commands(&page);
-    assert!(commands.len() >= 5, "{commands:?}");
+    assert!(commands.len() >= 9, "{commands:?}");
+    let [router] = free_endpoints("tcp");
+    let mut others = Vec::new();
     for command in commands {
         let smaller = command.replace(" --preset walk", "").replace("--steps 3000000", "--steps 3000 --preset smoke");
-        let args: Vec<&str> = smaller.split_whitespace().skip(1).collect();
-        assert!(!done(folder.path(), &args).stdout.is_empty(), "{command}");
+        let smaller = smaller.replace("tcp/127.0.0.1:7447", &router);
+        let args: Vec<&str> = smaller.split_whitespace().skip(1).filter(|word| *word != "&").collect();
+        match command.ends_with(" &") {
+            true => others.push(start(folder.path(), &args)),
+            false => assert!(!done(folder.path(), &args).stdout.is_empty(), "{command}"),
+        }
     }
-    for made in ["seeds/sweep.png", "search/sweep.csv", "population/lineage.csv"] {
+    for made in ["seeds/sweep.png", "search/sweep.csv", "population/lineage.csv", "pool/sweep.csv"] {
         assert!(folder.path().join("runs").join(made).metadata().is_ok_and(|file| file.len() > 100), "{made}");
     }
 }

@@ -57,6 +57,24 @@ fn seeds_are_runs_that_are_compared() {
 }
 
 #[test]
+fn the_trials_of_a_sweep_share_a_pool() {
+    let (folder, _) = folders();
+    let at = folder.path();
+    let [router] = &free_endpoints("tcp");
+    let _router = start(at, &["router", "--listen", router]);
+    let actor = ["actor", "--pool", "--envs", "8", "--connect", router];
+    let _actors = [start(at, &actor), start(at, &actor)];
+    let args = ["sweep", "--seeds", "3", "--preset", "smoke", "--steps", "4096", "--run-dir", "S", "--parallel", "2"];
+    let text = stdout(&done(at, &[&args[..], &["--connect", router]].concat()));
+    assert_eq!(column(at, "exit"), ["0"; 3], "{text}");
+    let log = fs::read_to_string(at.join("S/trial-3.log")).unwrap();
+    assert!(log.contains("run `s-trial-3`"), "{log}");
+    let refused = ["sweep", "--seeds", "2", "--preset", "smoke", "--connect", router];
+    assert_usage(at, &[&refused[..], &["--actors", "2"]].concat(), &["--connect", "--actors"]);
+    assert_usage(at, &["sweep", "--seeds", "2", "--connect", "tcp/10.0.0.9:7447"], &["--insecure"]);
+}
+
+#[test]
 fn a_grid_goes_on_after_a_trial_that_fails() {
     let (folder, _) = folders();
     search(folder.path(), "strategy = 'grid'\n[keys]\nrollout.envs = { choices = [65536, 8] }\n");

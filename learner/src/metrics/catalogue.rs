@@ -300,6 +300,10 @@ pub const METRICS: &[MetricRow] = metrics! {
     "build/info", "–", "" => Live;
     /// Time since the training thread last made progress; at most about one update in a healthy run.
     "learner/silence_s", "s", "" => Live;
+    /// Environments beyond those of its own actors that the run could use; 0 if it takes none. The demand for a pool.
+    "pool/envs_wanted", "count", "" => Live;
+    /// Environments of a pool's actors that it has.
+    "pool/envs", "count", "" => Live;
     /// Speed of the actor in the label `actor`; one row per live actor, at most 1024.
     "actor/env_steps_per_s", "steps/s", "" => Actor(|stats, _| Some(stats.env_steps_per_s));
     /// Its environments.

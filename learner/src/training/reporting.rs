@@ -12,6 +12,7 @@ use std::{
 
 use treadmill_bus::learner::StatsFeed;
 use treadmill_config::Config;
+use treadmill_proto::PoolDemand;
 use treadmill_runtime::atomic_file;
 
 use super::{
@@ -138,6 +139,12 @@ impl Reporting {
             report.show_wait(waited, actors);
             Ok(())
         });
+    }
+
+    /// Shows the demand for a pool's actors on the metrics page.
+    pub(super) fn show_demand(&self, demand: &PoolDemand) {
+        let values = [("pool/envs_wanted", demand.envs_wanted()), ("pool/envs", demand.envs)];
+        self.prometheus.set(values.map(|(tag, envs)| (tag, f64::from(envs))));
     }
 
     /// Returns whether the metrics of an update are to be logged.

@@ -44,6 +44,10 @@ impl Trainer {
 
     /// Publishes the status; `is_update` right after an update.
     pub(super) fn publish_status(&mut self, is_update: bool) {
+        let pool = self.serving.pool();
+        if let Some(demand) = &pool {
+            self.reporting.show_demand(demand);
+        }
         let (state, validator, reporting) = (&self.state, &self.serving.intake.validator, &self.reporting);
         let (means, counts) = (state.episodes.means(), validator.counts);
         let phase = match (self.shutdown.asked(), self.is_paused) {
@@ -80,7 +84,7 @@ impl Trainer {
             limit: reporting.parts.limit().map(|part| part.name.to_string()).unwrap_or_default(),
             limit_help: reporting.parts.limit().map(|part| part.help.to_string()).unwrap_or_default(),
             parts: parts(&reporting.parts),
-            pool: self.serving.pool(),
+            pool,
             alarms: reporting.alarms.texts(&validator.rejections, Instant::now()),
             ..first(state, &self.config)
         };

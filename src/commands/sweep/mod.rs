@@ -19,6 +19,7 @@ use std::{fs, path::PathBuf};
 
 use anyhow::Context;
 use clap::{Arg, ArgAction, Args, parser::ValueSource};
+use treadmill_bus::Role;
 use treadmill_config::{Config, ConfigSource, given_value};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_ppo::BatchSize;
@@ -41,7 +42,7 @@ use crate::{
         run_args::{AnyRunArgs, NewRunArgs, OwnActorsArgs},
         signals,
     },
-    shared::existing_file::existing_file,
+    shared::{existing_file::existing_file, network_args::NetworkArgs},
 };
 
 /// Seeds without a search file: two runs can agree by chance.
@@ -66,9 +67,21 @@ pub struct SweepArgs {
     /// Trials at once; by default one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
     parallel: Option<u64>,
+    /// Train with the pool of actors behind this endpoint of a router instead of with own actors; may be repeated.
+    #[arg(long, value_name = "ENDPOINT", conflicts_with_all = ["actors", "envs", "deterministic"])]
+    connect: Vec<String>,
+    /// Folder of certificates made by `treadmill certs`, for the links to that router.
+    #[arg(long, value_name = "DIR", requires = "connect")]
+    tls: Option<PathBuf>,
+    /// Allow plain tcp beyond loopback, where anyone on the network can read and forge it.
+    #[arg(long, requires = "connect")]
+    insecure: bool,
     /// Print the schedule of the best line of this sweep, as commands.
     #[arg(long, value_name = "SWEEP", exclusive = true)]
     schedule: Option<String>,
+    /// Check everything, print the plan as JSON and begin nothing, for programs that run the trials themselves.
+    #[arg(long, hide = true)]
+    plan: bool,
     #[command(flatten)]
     new: NewRunArgs,
     #[command(flatten)]
@@ -101,7 +114,7 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let (folder, mut plan) = match (&args.any.resume, begun) {
         (Some(sweep), _) => {
             let has_others = args.file.is_some() || args.seeds.is_some() || args.new.seed.is_some();
-            if has_others || args.new.run_dir.is_some() || !flags.is_empty() {
+            if has_others || args.new.run_dir.is_some() || !flags.is_empty() || !args.connect.is_empty() {
                 let why = "--resume: a sweep keeps its flags; give only --parallel and --json with it";
                 return Err(Usage(why.to_string()).into());
             }
@@ -119,17 +132,27 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             let is_same = plan.file.as_ref().map(|(_, text)| text) == file.as_ref()
                 && plan.seeds == args.seeds.or(file.is_none().then_some(SEEDS))
                 && plan.settings == args.trials
+                && plan.connect == args.connect
                 && args.new.seed.is_none_or(|seed| seed == plan.seed);
             if !is_same {
                 let root = root.display();
                 let why = format!(
-                    "`{root}` holds a sweep with another file, --seeds, --trials or --seed; a sweep keeps them"
+                    "`{root}` holds a sweep with another file, --connect, --seeds, --trials or --seed; a sweep keeps them"
                 );
                 return Err(Usage(why).into());
             }
             (folder, plan)
         }
-        (None, None) => begin_sweep(args, flags, tasks)?,
+        (None, None) => {
+            let plan = plan_sweep(args, flags, tasks)?;
+            if args.plan {
+                say(&serde_json::to_string(&plan)?);
+                return Ok(());
+            }
+            let folder = SweepFolder::create(args.new.run_dir.as_deref())?;
+            folder.save(&plan)?;
+            (folder, plan)
+        }
     };
     if let Some(parallel) = args.parallel {
         plan.parallel = parallel as usize;
@@ -232,8 +255,8 @@ fn read_file(args: &SweepArgs) -> anyhow::Result<Option<(String, String)>> {
     args.file.as_ref().map(read).transpose()
 }
 
-/// Checks flags and file, and creates the folder of a new sweep with its plan.
-fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> anyhow::Result<(SweepFolder, Plan)> {
+/// Checks flags and file, and returns the plan of a new sweep.
+fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> anyhow::Result<Plan> {
     if args.any.store.is_some() {
         let why = "--store: the trials of a sweep keep their states in folders; leave it out";
         return Err(Usage(why.to_string()).into());
@@ -241,11 +264,15 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
     if args.any.resume_or_start && args.new.run_dir.is_none() {
         return Err(Usage("--resume-or-start needs the folder of the sweep: pass --run-dir DIR".to_string()).into());
     }
-    let launcher = Launcher { command: RunCommand::Train, tasks };
+    let command = if args.connect.is_empty() { RunCommand::Train } else { RunCommand::Learner };
+    let launcher = Launcher { command, tasks };
+    // Before anything is written.
+    let network = NetworkArgs { tls: args.tls.clone(), insecure: args.insecure, ..NetworkArgs::default() };
+    network.options(Role::Learner, Vec::new(), args.connect.clone())?;
     let changes = args.actors.changes()?;
     let source = begin::sources(launcher, &args.new, &args.any, &changes)?.source;
     let config = source.build()?;
-    prepared::check_external(RunCommand::Train, &config, &args.any)?;
+    prepared::check_external(command, &config, &args.any)?;
     let file = read_file(args)?;
     let mut plan = Plan {
         started_in: std::env::current_dir().context("the working directory is unknown")?,
@@ -255,6 +282,7 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
         settings: args.trials,
         parallel: args.parallel.map_or_else(trials_at_once, |parallel| parallel as usize),
         deterministic: config.run.deterministic,
+        connect: args.connect.clone(),
         goal: String::new(),
         seed: config.run.seed,
         steps: config.run.steps,
@@ -275,9 +303,7 @@ fn begin_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> an
     plan.goal = search.goal.clone().unwrap_or_else(|| Goal::of(&config, search.interval_steps().is_some())).to_string();
     plan.propose(&search);
     check_trials(&plan, &source, &changes)?;
-    let folder = SweepFolder::create(args.new.run_dir.as_deref())?;
-    folder.save(&plan)?;
-    Ok((folder, plan))
+    Ok(plan)
 }
 
 /// Returns how many trials this machine trains at once: with one core each they are together faster than one after the

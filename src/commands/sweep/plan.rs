@@ -44,6 +44,9 @@ pub(crate) struct Plan {
     pub(crate) parallel: usize,
     /// Whether one actor runs in lock-step.
     pub(crate) deterministic: bool,
+    /// Endpoints of the router of a pool whose actors the trials use; without any, each trial has its own.
+    #[serde(default)]
+    pub(crate) connect: Vec<String>,
     pub(crate) goal: String,
     /// Seed of the first trial and of what is drawn.
     pub(crate) seed: u64,

@@ -13,7 +13,6 @@ const POPULATION_MIN: usize = 2;
 /// Settings of a random search, and members of a population, by default.
 const TRIALS: usize = 8;
 const POPULATION: usize = 5;
-/// Entries of a search file.
 /// Keys beside those of `[env]` that a fork cannot change.
 const FORK_KEEPS: [&str; 7] = [
     "policy.hidden",
@@ -24,6 +23,7 @@ const FORK_KEEPS: [&str; 7] = [
     "motion.future_steps",
     "motion.state_estimation",
 ];
+/// Entries of a search file.
 const ENTRIES: [&str; 6] = ["strategy", "trials", "seeds", "goal", "interval_steps", "keys"];
 
 /// How the settings of trials are chosen.
@@ -111,6 +111,11 @@ impl SweepSearch {
                 }
                 let interval_steps = interval_steps.unwrap_or(1);
                 (Strategy::Population { interval_steps }, trials.unwrap_or(POPULATION))
+            }
+            Some(name @ ("tpe" | "cmaes")) => {
+                let command = "`python -m treadmill_sweep`, with the same file and flags (see docs/guide/sweep.md)";
+                wrong.push(format!("strategy \"{name}\" is Optuna's; start it by {command}"));
+                (Strategy::Random, 1)
             }
             _ => {
                 wrong.push(format!(
@@ -269,6 +274,7 @@ mod tests {
         let key = "keys.ppo.gamma = { uniform = [0.9, 1] }";
         for (text, part) in [
             ("strategy = 'annealing'".to_string(), "\"population\""),
+            (format!("strategy = 'tpe'\n{key}"), "`python -m treadmill_sweep`"),
             ("strategy = 'random'".to_string(), "`keys` is missing"),
             (format!("strategy = 'seeds'\n{key}"), "no `keys`"),
             (format!("strategy = 'grid'\ntrials = 4\n{key}"), "leave `trials` out"),

@@ -27,7 +27,10 @@ pub mod learner {
             server::{PolicyServer, PublishedPolicy},
             standby_mark::StandbyMark,
         },
-        pool::{PendingDemand, PendingJoin, PoolEvent, PoolServer},
+        pool::{
+            server::{PendingDemand, PendingJoin, PoolEvent, PoolServer},
+            watch::PoolWatch,
+        },
         presence::{Alive, AliveView},
         rollouts::{
             copies::RolloutCopies,
@@ -52,7 +55,7 @@ pub mod actor {
             fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
             standby_mark::is_behind_standby,
         },
-        pool::{PoolCalls, PoolRoom, ask_to_join, pool_demands, pool_token},
+        pool::client::{PoolCalls, PoolRoom, ask_to_join, pool_demands, pool_token},
         poses::PosePublisher,
         presence::{is_actor_present, token},
         rollouts::intake::submit,

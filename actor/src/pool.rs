@@ -23,14 +23,16 @@ const ANSWER_TIMEOUT: Duration = Duration::from_secs(1);
 /// Pause of an actor without a run between two searches: the first one, and the longest. A run that has room calls.
 const PAUSE: Duration = Duration::from_millis(200);
 const PAUSE_MAX: Duration = Duration::from_secs(10);
+/// Pause after which the user hears of the wait.
+const PAUSE_NOTICED: Duration = Duration::from_secs(3);
 /// Runs whose last fragments may still be under way after the actor left them. Those of further ones are given up.
 const LEFT_MAX: usize = 8;
 
 /// Deliveries under way.
-pub(super) type Deliveries = JoinSet<Result<Refresh, BusError>>;
+pub type Deliveries = JoinSet<Result<Refresh, BusError>>;
 
 /// Place of an actor in the pool.
-pub(super) struct PoolPlace {
+pub struct PoolPlace {
     seeker: Seeker,
     room: PoolRoom,
     /// Deliveries that were under way when the actor left their run.
@@ -40,7 +42,7 @@ pub(super) struct PoolPlace {
 
 /// Searches for a run. Clones share what they know.
 #[derive(Clone)]
-pub(super) struct Seeker {
+pub struct Seeker {
     bus: Bus,
     actor: String,
     envs: u32,
@@ -50,20 +52,27 @@ pub(super) struct Seeker {
 
 impl PoolPlace {
     /// Enters the pool.
-    pub(super) fn enter(bus: &Bus, actor: &str, envs: u32) -> Result<Self, BusError> {
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub fn enter(bus: &Bus, actor: &str, envs: u32) -> Result<Self, BusError> {
         let token = Box::new(pool_token(bus, actor, envs)?);
         let seeker = Seeker { bus: bus.clone(), actor: actor.to_string(), envs, unfit: Arc::default() };
         Ok(Self { seeker, room: PoolRoom::open(bus)?, left: BTreeMap::new(), _token: token })
     }
 
     /// Returns the part that a task may take along.
-    pub(super) fn seeker(&self) -> &Seeker {
+    pub fn seeker(&self) -> &Seeker {
         &self.seeker
     }
 
     /// Waits until a run admits this actor, which has none. Returns `None` after a request to stop.
-    pub(super) async fn find(&self, shutdown: &Shutdown) -> Result<Option<String>, BusError> {
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub async fn find(&self, notify: fn(&str), shutdown: &Shutdown) -> Result<Option<String>, BusError> {
         let mut pause = PAUSE;
+        let mut has_notified = false;
         loop {
             let found = tokio::select! {
                 found = self.seeker.seek(None) => found?,
@@ -71,6 +80,10 @@ impl PoolPlace {
             };
             if found.is_some() {
                 return Ok(found);
+            }
+            if pause >= PAUSE_NOTICED && !has_notified {
+                notify("no run needs this actor now; waiting for one");
+                has_notified = true;
             }
             // Actors that came together do not search together.
             let jitter = 0.5
@@ -84,7 +97,7 @@ impl PoolPlace {
     }
 
     /// Keeps the deliveries of a run that the actor leaves: its learner may be paused, or away for a while.
-    pub(super) fn keep(&mut self, run: &str, deliveries: Deliveries) {
+    pub fn keep(&mut self, run: &str, deliveries: Deliveries) {
         self.left.retain(|_, of_run| {
             while of_run.try_join_next().is_some() {}
             !of_run.is_empty()
@@ -101,7 +114,7 @@ impl PoolPlace {
 
     /// Waits for the deliveries of an earlier membership in `run`, at most for `timeout`: the learner takes the fragments
     /// of an actor in their order.
-    pub(super) async fn settle(&mut self, run: &str, timeout: Duration) {
+    pub async fn settle(&mut self, run: &str, timeout: Duration) {
         if let Some(mut deliveries) = self.left.remove(run) {
             let settled = async { while deliveries.join_next().await.is_some() {} };
             if tokio::time::timeout(timeout, settled).await.is_err() {
@@ -114,7 +127,10 @@ impl PoolPlace {
 impl Seeker {
     /// Asks the runs other than `present` for a place, those that lack most environments first. Returns the run that
     /// admits the actor.
-    pub(super) async fn seek(&self, present: Option<&str>) -> Result<Option<String>, BusError> {
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub async fn seek(&self, present: Option<&str>) -> Result<Option<String>, BusError> {
         let mut demands = pool_demands(&self.bus, ANSWER_TIMEOUT).await?;
         let unfit = self.unfit.lock().unwrap_or_else(PoisonError::into_inner).clone();
         demands.retain(|demand| {
@@ -136,7 +152,7 @@ impl Seeker {
     }
 
     /// Records why this program cannot work for a run.
-    pub(super) fn refuse(&self, run: &str, why: &ActorError) {
+    pub fn refuse(&self, run: &str, why: &ActorError) {
         tracing::warn!(run, why = error_chain(why), "this actor does not join the run");
         self.unfit.lock().unwrap_or_else(PoisonError::into_inner).insert(run.to_string());
     }

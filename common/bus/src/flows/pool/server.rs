@@ -1,7 +1,4 @@
-//! Pool: actors that belong to no run find one that needs them, and its learner admits and releases them.
-//!
-//! An actor that works sends nothing of this, and only learners hear what others want, so that a large pool costs the bus
-//! next to nothing.
+//! A learner's side of the pool.
 
 use std::{
     collections::BTreeMap,
@@ -20,51 +17,27 @@ use treadmill_proto::{
 use zenoh::{
     Wait,
     bytes::ZBytes,
-    handlers::{RingChannel, RingChannelHandler},
     pubsub::Subscriber,
     qos::Priority,
     query::Query,
     sample::{Sample, SampleKind},
 };
 
-use super::{
-    presence::{learner_key, run_of},
-    shared::{ask, last_part, next_valid, publisher, reply_on, serve},
-    subscription::{Feed, observe},
+use super::{actor_key, demand_key, join_key, release_key, room_key};
+use crate::{
+    admission::rate_limited_log::RateLimitedLog,
+    error::BusError,
+    flows::{
+        presence::{learner_key, run_of},
+        shared::{last_part, publisher, reply_on, serve},
+    },
+    session::Bus,
 };
-use crate::{admission::rate_limited_log::RateLimitedLog, error::BusError, session::Bus};
 
 /// Events of a learner that may wait. Further ones are dropped: demands are repeated, and actors ask again.
 const QUEUE: usize = 4096;
 /// Most actors of a pool that are tracked; further ones find no place.
 const ACTORS_MAX: usize = 4096;
-/// Most demands that an actor or observer takes from one question.
-const RUNS_MAX: usize = 1024;
-
-/// Returns `treadmill/{run}/pool/demand`.
-fn demand_key(run: &str) -> String {
-    format!("treadmill/{run}/pool/demand")
-}
-
-/// Returns `treadmill/{run}/pool/join/{actor}`.
-fn join_key(run: &str, actor: &str) -> String {
-    format!("treadmill/{run}/pool/join/{actor}")
-}
-
-/// Returns `treadmill/{run}/pool/release/{actor}`.
-fn release_key(run: &str, actor: &str) -> String {
-    format!("treadmill/{run}/pool/release/{actor}")
-}
-
-/// Returns `treadmill/{run}/pool/room`.
-fn room_key(run: &str) -> String {
-    format!("treadmill/{run}/pool/room")
-}
-
-/// Returns `treadmill/@pool/actors/{actor}/{envs}`, which is no key of a run: names of runs have no `@`.
-fn actor_key(actor: &str, envs: &str) -> String {
-    format!("treadmill/@pool/actors/{actor}/{envs}")
-}
 
 /// Event of a learner's pool.
 pub enum PoolEvent {
@@ -247,118 +220,6 @@ fn read_token(key: &str) -> Option<(&str, u32)> {
     let (name, envs) = key.strip_prefix("treadmill/@pool/actors/")?.split_once('/')?;
     let envs: u32 = envs.parse().ok()?;
     (check_ident("actor", name).is_ok() && (1..=ENVS_MAX).contains(&envs)).then_some((name, envs))
-}
-
-/// Declares the token of an actor in the pool, which lasts until it is dropped.
-///
-/// # Errors
-/// If the bus fails.
-pub fn pool_token(bus: &Bus, actor: &str, envs: u32) -> Result<impl Send + Sync + use<>, BusError> {
-    let key = actor_key(actor, &envs.to_string());
-    bus.session
-        .liveliness()
-        .declare_token(key)
-        .wait()
-        .map_err(BusError::flow("declaring the actor's token in the pool"))
-}
-
-/// Returns the demand of every learner that answers, one for each run: that of the newest epoch.
-///
-/// # Errors
-/// If the bus fails.
-pub async fn pool_demands(bus: &Bus, timeout: Duration) -> Result<Vec<PoolDemand>, BusError> {
-    let replies = ask(bus, demand_key("*"), Vec::new(), timeout, Priority::Data, "asking what runs want")?;
-    let mut runs = BTreeMap::<String, PoolDemand>::new();
-    while let Some(demand) = next_valid(&replies, "demand", |bytes| PoolDemand::decode_checked(&bytes)).await {
-        let known = runs.get(&demand.run);
-        if known.is_none_or(|known| known.epoch <= demand.epoch) && (known.is_some() || runs.len() < RUNS_MAX) {
-            runs.insert(demand.run.clone(), demand);
-        }
-    }
-    Ok(runs.into_values().collect())
-}
-
-/// Asks a run for a place. No answer counts as no.
-///
-/// # Errors
-/// If the bus fails.
-pub async fn ask_to_join(
-    bus: &Bus,
-    run: &str,
-    actor: &str,
-    join: &PoolJoin,
-    timeout: Duration,
-) -> Result<bool, BusError> {
-    let replies = ask(bus, join_key(run, actor), join.to_bytes(), timeout, Priority::Data, "asking for a place")?;
-    let decode = |bytes: bytes::Bytes| PoolAnswer::decode_checked(&bytes);
-    while let Some(answer) = next_valid(&replies, "answer of the pool", decode).await {
-        if answer.admitted {
-            return Ok(true);
-        }
-    }
-    Ok(false)
-}
-
-/// Calls to an actor that works for a run.
-pub struct PoolCalls {
-    release: Feed,
-    learner: Subscriber<RingChannelHandler<Sample>>,
-}
-
-impl PoolCalls {
-    /// Subscribes to the releases of an actor, and to the token of the run's learner.
-    ///
-    /// # Errors
-    /// If the bus fails.
-    pub fn open(bus: &Bus, run: &str, actor: &str) -> Result<Self, BusError> {
-        let release = observe(bus, &release_key(run, actor), 1)?;
-        let learner = bus
-            .session
-            .liveliness()
-            .declare_subscriber(learner_key(run))
-            .history(true)
-            .with(RingChannel::new(4))
-            .wait()
-            .map_err(BusError::flow("watching the learner"))?;
-        Ok(Self { release, learner })
-    }
-
-    /// Waits until the learner releases the actor. Cancel-safe.
-    pub async fn released(&self) {
-        if self.release.arrival().await.is_none() {
-            std::future::pending().await
-        }
-    }
-
-    /// Waits until the learner comes or goes; returns whether it is there. Cancel-safe.
-    pub async fn learner(&self) -> bool {
-        match self.learner.recv_async().await {
-            Ok(sample) => sample.kind() == SampleKind::Put,
-            Err(_) => std::future::pending().await,
-        }
-    }
-}
-
-/// Calls of runs that have room to actors that have no run.
-pub struct PoolRoom {
-    feed: Feed,
-}
-
-impl PoolRoom {
-    /// Subscribes to the calls.
-    ///
-    /// # Errors
-    /// If the bus fails.
-    pub fn open(bus: &Bus) -> Result<Self, BusError> {
-        Ok(Self { feed: observe(bus, &room_key("*"), 1)? })
-    }
-
-    /// Waits for a call. Cancel-safe.
-    pub async fn called(&self) {
-        if self.feed.arrival().await.is_none() {
-            std::future::pending().await
-        }
-    }
 }
 
 #[cfg(test)]

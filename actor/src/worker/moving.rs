@@ -1,0 +1,101 @@
+//! Move of an actor of a pool to another run: when its learner calls it to leave, or is gone.
+
+use std::{
+    future::pending,
+    time::{Duration, Instant},
+};
+
+use tokio::{task::JoinSet, time::Interval};
+use treadmill_bus::{Bus, BusError, actor::PoolCalls};
+
+use crate::pool::{Deliveries, Seeker};
+
+/// Longest wait for the receipts of the last fragments of an actor that moves. Later ones come while it works elsewhere.
+pub(super) const LEAVE_TIMEOUT: Duration = Duration::from_secs(1);
+/// Time for which the learner may be gone, as when its link is lost, before the actor looks for another run.
+const GONE_GRACE: Duration = Duration::from_millis(200);
+/// Interval of looking for another run while the learner is gone.
+const SEEK_EVERY: Duration = Duration::from_secs(1);
+
+/// Move of an actor, which ends its membership in a run. An actor outside a pool never moves.
+pub(super) struct Moving {
+    run: String,
+    pool: Option<(Seeker, PoolCalls)>,
+    is_learner_there: bool,
+    seek_due: Interval,
+    seeks: JoinSet<Result<Option<String>, BusError>>,
+    /// Run that has admitted the actor.
+    to: Option<String>,
+    /// Time to which it waits for receipts, once nothing more is simulated.
+    until: Option<Instant>,
+}
+
+impl Moving {
+    /// Listens to calls to leave `run`.
+    pub(super) fn new(bus: &Bus, run: &str, actor: &str, seeker: Option<&Seeker>) -> Result<Self, BusError> {
+        let pool = seeker.map(|seeker| Ok((seeker.clone(), PoolCalls::open(bus, run, actor)?))).transpose()?;
+        Ok(Self {
+            run: run.to_string(),
+            pool,
+            is_learner_there: true,
+            seek_due: tokio::time::interval(SEEK_EVERY),
+            seeks: JoinSet::new(),
+            to: None,
+            until: None,
+        })
+    }
+
+    /// Waits until another run has admitted the actor, and returns true; then, until the time for receipts is up.
+    /// Cancel-safe.
+    pub(super) async fn next(&mut self) -> bool {
+        if let Some(until) = self.until {
+            tokio::time::sleep_until(until.into()).await;
+            return false;
+        }
+        let Some((seeker, calls)) = self.pool.as_ref().filter(|_| self.to.is_none()) else { return pending().await };
+        loop {
+            let seeks = tokio::select! {
+                () = calls.released(), if self.seeks.is_empty() => true,
+                is_there = calls.learner() => {
+                    self.is_learner_there = is_there;
+                    self.seek_due.reset_after(GONE_GRACE);
+                    false
+                }
+                _ = self.seek_due.tick(), if !self.is_learner_there && self.seeks.is_empty() => true,
+                Some(found) = self.seeks.join_next() => {
+                    // A search that failed is made again.
+                    if let Ok(Ok(Some(run))) = found {
+                        self.to = Some(run);
+                        return true;
+                    }
+                    false
+                }
+            };
+            if seeks {
+                let (seeker, run) = (seeker.clone(), self.run.clone());
+                self.seeks.spawn(async move { seeker.seek(Some(&run)).await });
+            }
+        }
+    }
+
+    /// Returns whether more fragments may come.
+    pub(super) fn simulates(&self) -> bool {
+        self.until.is_none()
+    }
+
+    /// Begins to wait for the last receipts; those of a learner that is gone come later, if at all.
+    pub(super) fn wait_for_receipts(&mut self) {
+        let patience = if self.is_learner_there { LEAVE_TIMEOUT } else { Duration::ZERO };
+        self.until = Some(Instant::now() + patience);
+    }
+
+    /// Returns whether the actor may leave now.
+    pub(super) fn has_left(&self, deliveries: &Deliveries) -> bool {
+        self.until.is_some_and(|until| deliveries.is_empty() || Instant::now() >= until)
+    }
+
+    /// Returns the run to which it moves.
+    pub(super) fn to(self) -> String {
+        self.to.unwrap_or_default()
+    }
+}

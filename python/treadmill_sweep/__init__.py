@@ -1,0 +1,1 @@
+"""Searches hyperparameters of `treadmill train` with Optuna, which proposes settings and ends hopeless trials."""
