@@ -279,7 +279,7 @@ code=$(docker inspect -f '{{.State.ExitCode}}' "$sweep")
 docker logs "$sweep" 2>&1 | grep '^Best: ' >/dev/null && [ "$code" = 0 ] ||
     { docker logs --tail 20 "$sweep" >&2; fail "the sweep ended with $code"; }
 joined=$(for actor in $(compose --profile sweep ps -q pool 2>/dev/null); do docker logs "$actor" 2>&1; done |
-    sed -n 's/.*joined run `\(sweep-trial-[123]\)`.*/\1/p' | sort -u | wc -l)
+    sed -n 's/.*joined run `sweep-[0-9a-f]*-\(trial-[123]\)`.*/\1/p' | sort -u | wc -l)
 [ "$joined" = 3 ] || fail "the pool served $joined of 3 trials"
 compose --profile sweep down -v --remove-orphans -t 1 >/dev/null 2>&1
 say 'a pool of two actors served three trials'

@@ -6,22 +6,6 @@ use tokio::task::JoinError;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_proto::WIRE_VERSION;
 
-impl ActorError {
-    /// Returns whether another run may suit this program.
-    pub(crate) fn is_of_run(&self) -> bool {
-        matches!(
-            self,
-            Self::Model(_)
-                | Self::Config(_)
-                | Self::Bundle { .. }
-                | Self::OtherTask { .. }
-                | Self::OtherPhysics { .. }
-                | Self::UnknownKeys { .. }
-                | Self::FragmentSize { .. }
-        )
-    }
-}
-
 /// Error that ends an actor or an evaluator.
 #[derive(Debug, thiserror::Error)]
 pub enum ActorError {
@@ -119,4 +103,25 @@ pub enum ActorError {
     /// The physics thread panicked.
     #[error("the physics thread panicked")]
     PhysicsPanicked,
+}
+
+impl ActorError {
+    /// Returns whether another run may suit this program.
+    pub(crate) fn is_of_run(&self) -> bool {
+        matches!(
+            self,
+            Self::Model(_)
+                | Self::Config(_)
+                | Self::Bundle { .. }
+                | Self::OtherTask { .. }
+                | Self::OtherPhysics { .. }
+                | Self::UnknownKeys { .. }
+                | Self::FragmentSize { .. }
+                | Self::NameTaken { .. }
+                | Self::Inference(_)
+                | Self::Encoding(_)
+                | Self::PhysicsEnded
+                | Self::PhysicsPanicked
+        )
+    }
 }

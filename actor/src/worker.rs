@@ -48,14 +48,17 @@ const NAME_RETRY: Duration = Duration::from_millis(500);
 const PLACE_CHECK_EVERY: Duration = Duration::from_secs(10);
 
 /// Longest wait of an actor of a pool for the policy of a run that has admitted it.
-const JOIN_TIMEOUT: Duration = Duration::from_secs(10);
+const JOIN_TIMEOUT: Duration = Duration::from_secs(5);
+/// Longest wait of such an actor for the receipts of an earlier membership in the run.
+const SETTLE_TIMEOUT: Duration = Duration::from_secs(5);
+
 /// Reason for which a membership in a run ended.
 enum EndReason {
     StopRequested,
     RunReplaced,
     BehindStandby,
-    /// Another run has admitted the actor. Some deliveries may be under way.
-    Moves(String, Deliveries),
+    /// Another run has admitted the actor, or its learner is gone for long. Some deliveries may be under way.
+    Moves(Option<String>, Deliveries),
 }
 
 /// How an actor ended.
@@ -88,17 +91,23 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
         let joined = match &mut pool {
             None => joining.await?,
             Some(pool) => {
-                pool.settle(run.as_deref().unwrap_or_default(), moving::LEAVE_TIMEOUT).await;
+                pool.settle(run.as_deref().unwrap_or_default(), SETTLE_TIMEOUT).await;
                 // The run may have ended since.
                 let Ok(joined) = tokio::time::timeout(JOIN_TIMEOUT, joining).await else { continue };
                 joined?
             }
         };
         let Some(bundle) = joined else { return Ok(Ending::Stopped(last)) };
-        if !wait_for_name(bus, options, &bundle.run, shutdown).await? {
-            return Ok(Ending::Stopped(last));
-        }
         let seeker = pool.as_ref().map(PoolPlace::seeker);
+        match (wait_for_name(bus, options, &bundle.run, shutdown).await, seeker) {
+            (Ok(true), _) => {}
+            (Ok(false), _) => return Ok(Ending::Stopped(last)),
+            (Err(why), Some(seeker)) if why.is_of_run() => {
+                seeker.refuse(&bundle.run, &why);
+                continue;
+            }
+            (Err(why), _) => return Err(why),
+        }
         let membership = match (Membership::new(bus, options, &bundle, epochs.clone(), seeker), seeker) {
             (Err(why), Some(seeker)) if why.is_of_run() => {
                 seeker.refuse(&bundle.run, &why);
@@ -128,7 +137,7 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
             EndReason::StopRequested => return Ok(Ending::Stopped(last)),
             EndReason::BehindStandby => return Ok(Ending::BehindStandby),
             EndReason::Moves(to, deliveries) => {
-                admitted = Some(to);
+                admitted = to;
                 if let Some(pool) = &mut pool {
                     pool.keep(&bundle.run, deliveries);
                 }

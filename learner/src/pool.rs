@@ -17,8 +17,13 @@ use treadmill_bus::{
 };
 use treadmill_config::RunConfig;
 use treadmill_experience::pool::PoolShare;
-use treadmill_proto::{PoolDemand, pool::DEMAND_LASTS};
+use treadmill_proto::{
+    PoolDemand,
+    pool::{DEMAND_LASTS, RUN_ENVS_MAX},
+};
 
+/// Most events that are answered with one view.
+const EVENTS_MAX: usize = 1024;
 /// Longest wait for an event.
 const TICK: Duration = Duration::from_millis(100);
 /// Shortest time between two publications of a changed demand, and longest time between two of any.
@@ -129,11 +134,13 @@ impl Serving {
             let now = self.begun.elapsed();
             let wish = lock(wish).clone();
             self.look(&wish, now);
-            // What came at the same time is answered with the same view.
-            let more = std::iter::from_fn(|| self.server.next(Duration::ZERO));
+            // What came at the same time is answered with the same view. A flood must not stop the rest.
+            let more = std::iter::from_fn(|| self.server.next(Duration::ZERO)).take(EVENTS_MAX);
             for event in event.into_iter().chain(more).collect::<Vec<_>>() {
                 self.handle(event, now);
             }
+            // Once for all demands that were heard.
+            self.share.set(|_| {});
             lock(shown).clone_from(self.share.demand());
             self.publish(now);
             self.call(now);
@@ -146,7 +153,7 @@ impl Serving {
         let pool = self.server.actors();
         let in_run = self.alive.actors();
         let own = in_run.iter().filter(|name| !pool.contains_key(*name)).filter_map(|name| wish.envs.get(name));
-        let own: u32 = own.copied().fold(0, u32::saturating_add);
+        let own = own.copied().fold(0, u32::saturating_add).min(RUN_ENVS_MAX);
         self.share.set(|demand| {
             demand.envs_own = own;
             demand.share = wish.share;
@@ -161,7 +168,7 @@ impl Serving {
             PoolEvent::Demand(demand) => self.share.hear(demand, now),
             PoolEvent::Gone(run) => self.share.forget(&run),
             PoolEvent::Join(pending) => {
-                let is_admitted = self.share.admit(&pending.actor, pending.join.idle, now);
+                let is_admitted = self.share.admit(&pending.actor, pending.join.stranded, now);
                 pending.answer(&self.share.demand().run.clone(), is_admitted);
             }
             PoolEvent::Asked(pending) => pending.answer(self.share.demand()),

@@ -15,8 +15,17 @@ pub use wire::{PoolAnswer, PoolDemand, PoolJoin};
 
 /// Time after which a run whose demand is not heard any more does not count. Learners repeat theirs more often.
 pub const DEMAND_LASTS: Duration = Duration::from_secs(20);
+/// Smallest weight of a run that takes actors.
+pub const SHARE_MIN: f64 = 0.001;
 /// Largest weight of a run.
 pub const SHARE_MAX: f64 = 1000.0;
+/// Most environments that a run may want or have: sums over many runs stay below 2^32.
+pub const RUN_ENVS_MAX: u32 = 1_000_000;
+
+/// Returns whether a weight is allowed: 0, or from [`SHARE_MIN`] to [`SHARE_MAX`].
+pub fn is_share(share: f64) -> bool {
+    share == 0.0 || (SHARE_MIN..=SHARE_MAX).contains(&share)
+}
 
 impl PoolDemand {
     /// Encodes as protobuf.
@@ -42,8 +51,18 @@ impl PoolDemand {
 
     pub(crate) fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
-        if !(0.0..=SHARE_MAX).contains(&self.share) {
-            return Err(Malformed::field("share", self.share, format!("0 to {SHARE_MAX}")));
+        if !is_share(self.share) {
+            return Err(Malformed::field("share", self.share, format!("0, or {SHARE_MIN} to {SHARE_MAX}")));
+        }
+        for (field, envs) in [
+            ("envs_max", self.envs_max),
+            ("envs_own", self.envs_own),
+            ("envs", self.envs),
+            ("envs_target", self.envs_target),
+        ] {
+            if envs > RUN_ENVS_MAX {
+                return Err(Malformed::field(field, envs, format!("at most {RUN_ENVS_MAX}")));
+            }
         }
         if self.envs_min > self.envs_max {
             return Err(Malformed::field("envs_min", self.envs_min, "at most envs_max"));
@@ -105,11 +124,13 @@ mod tests {
         assert!(refused(|demand| demand.run = "**".into()).contains("`run`"));
         assert!(refused(|demand| demand.share = f64::NAN).contains("`share`"));
         assert!(refused(|demand| demand.share = -1.0).contains("`share`"));
+        assert!(refused(|demand| demand.share = 1e-60).contains("`share`"));
+        assert!(refused(|demand| demand.envs = u32::MAX).contains("`envs`"));
         assert!(refused(|demand| demand.envs_min = 513).contains("`envs_min`"));
-        let join = PoolJoin { envs: 32, idle: true };
+        let join = PoolJoin { envs: 32, stranded: true };
         assert_eq!(PoolJoin::decode_checked(&join.to_bytes()), Ok(join));
         for envs in [0, ENVS_MAX + 1] {
-            let why = PoolJoin::decode_checked(&PoolJoin { envs, idle: false }.to_bytes()).unwrap_err();
+            let why = PoolJoin::decode_checked(&PoolJoin { envs, stranded: false }.to_bytes()).unwrap_err();
             assert!(why.to_string().contains("`envs`"), "{why}");
         }
         assert_eq!(PoolAnswer::decode_checked(&PoolAnswer { admitted: true }.to_bytes()).map(|a| a.admitted), Ok(true));

@@ -48,7 +48,7 @@ if sys.argv[1] == "sweep":
     settings, seeds = int(flags.get("--trials", plan.pop("trials"))), plan.pop("seeds")
     plan["trials"] = [{{"setting": run // seeds + 1}} for run in range(settings * seeds)]
     kept = [word for word in sys.argv[3:] if not word.startswith(("--trials", "--parallel", "--plan"))]
-    plan |= {{"flags": kept, "parallel": int(flags.get("--parallel", 2)), "deterministic": False, "started_in": os.getcwd()}}
+    plan |= {{"flags": kept, "parallel": int(flags.get("--parallel", 2)), "deterministic": False, "connect": [], "started_in": os.getcwd()}}
     print(json.dumps(plan | {{"steps": {STEPS}}}))
     sys.exit()
 

@@ -42,6 +42,9 @@ def parser():
 def opened(args, file, flags):
     """Returns folder and plan of a sweep."""
     numbers = {name: value for name in ("trials", "parallel") if (value := getattr(args, name)) is not None}
+    for name, value in numbers.items():
+        if value < 1:
+            raise search.SweepError(f"--{name} is {value}; allowed: a whole number from 1 on")
     if args.resume:
         if file or flags or args.run_dir or args.storage:
             raise search.SweepError("--resume: a sweep keeps its flags; give only --trials, --parallel, --treadmill and --json")
@@ -53,9 +56,9 @@ def opened(args, file, flags):
     except (OSError, UnicodeError) as why:
         raise search.SweepError(f"cannot read the search file `{file}`, the first argument: {why}") from None
     flags += [f"--{name}={value}" for name, value in numbers.items()]
-    plan = search.read(file, text, args.treadmill or "treadmill", flags)
     numbered = (Path(f"runs/sweep-{number}") for number in itertools.count(1))
     root = (args.run_dir or next(root for root in numbered if not root.exists())).resolve()
+    plan = search.read(file, text, args.treadmill or "treadmill", [*flags, f"--run-dir={root}"])
     if any((root / name).exists() for name in (PLAN, "sweep.json", "trial-1", "checkpoints")):
         raise search.SweepError(f"`{root}` already holds a sweep or a run; go on with --resume, or choose another --run-dir")
     root.mkdir(parents=True, exist_ok=True)

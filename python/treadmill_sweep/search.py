@@ -35,8 +35,8 @@ def read(name, text, treadmill, flags):
         file.write_text(re.sub(r"(?m)^[ \t\"']*(strategy|pruner)[\"']?[ \t]*=.*$", "", text))
         try:
             done = subprocess.run([treadmill, "sweep", file, *flags, "--plan"], capture_output=True, text=True, timeout=60)
-        except OSError as why:
-            raise SweepError(f"`{treadmill}` cannot be started ({why.strerror}); give its path with --treadmill") from None
+        except (OSError, subprocess.TimeoutExpired) as why:
+            raise SweepError(f"`{treadmill}` cannot be started ({why}); give its path with --treadmill") from None
     if done.returncode:
         raise SweepError(done.stderr.removeprefix("error: ").strip().replace(str(file), name))
     plan = json.loads(done.stdout)
@@ -50,7 +50,8 @@ def read(name, text, treadmill, flags):
     if plan["strategy"] == "cmaes" and not importlib.util.find_spec("cmaes"):
         raise SweepError(f'`{name}`: `strategy` "cmaes" needs another package: pip install cmaes')
     runs, settings, cores = len(plan["trials"]), plan["trials"][-1]["setting"], len(os.sched_getaffinity(0))
-    if plan["parallel"] > 1 and not plan["deterministic"] and not any(flag.startswith("--actors") for flag in plan["flags"]):
+    has_own = plan["parallel"] > 1 and not plan["deterministic"] and not plan["connect"]
+    if has_own and not any(flag.startswith("--actors") for flag in plan["flags"]):
         plan["flags"].append(f"--actors={max(1, cores // plan['parallel'])}")
     return plan | {"trials": settings, "seeds": runs // settings, "keys": dict(ranges("", entries["keys"]))}
 

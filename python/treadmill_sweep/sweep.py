@@ -37,7 +37,13 @@ class Run:
         self.progress = Progress(sweep.goal, self.folder)
         own = ["--resume-or-start", "--no-progress", "--no-page", "--json", f"--run-dir={self.folder}", f"--seed={seed}"]
         own += [f"--set={key}={value}" for key, value in keys]
-        self.command = [self.plan["treadmill"], "train", *self.plan["flags"], *own]
+        own += [f"--connect={endpoint}" for endpoint in self.plan["connect"]]
+        if self.plan["connect"]:
+            # Its actors are those of a pool, in which other sweeps may be.
+            protocol = "tls" if any(flag.startswith("--tls") for flag in self.plan["flags"]) else "tcp"
+            own += [f"--listen={protocol}/127.0.0.1:0", f"--run={self.plan['bus_name']}-{self.name}"]
+        command = "learner" if self.plan["connect"] else "train"
+        self.command = [self.plan["treadmill"], command, *self.plan["flags"], *own]
 
     def start(self):
         """Begins the run or goes on with it."""

@@ -1,6 +1,7 @@
 //! `treadmill certs`: creates an authority and a certificate for each role, without which no machine joins the bus.
 
 use std::{
+    collections::BTreeSet,
     fs,
     io::Write,
     net::IpAddr,
@@ -16,6 +17,7 @@ use rcgen::{
 use rustls::pki_types::ServerName;
 use time::{Duration, OffsetDateTime};
 use treadmill_bus::{Credentials, Role};
+use treadmill_proto::ident::check_ident;
 
 use crate::{
     diagnosis::{certificates, finding::Severity},
@@ -42,6 +44,10 @@ pub struct CertsArgs {
     /// Replace the roles' certificates, and keep the authority.
     #[arg(long)]
     renew: bool,
+    /// Also make a certificate for the actors of this pool, in the folder pools/POOL; may be repeated. Only routers and
+    /// learners with `--admit POOL=RUNS` know it.
+    #[arg(long, value_name = "POOL", value_parser = pool_name)]
+    pool: Vec<String>,
     /// Also write a folder per role below this one, with only the three files that the role needs.
     #[arg(long, value_name = "DIR")]
     bundles: Option<PathBuf>,
@@ -76,7 +82,7 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
 }
 
 /// Creates the missing files, and those of listening roles that lack a host; returns the roles whose files were written.
-pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
+pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<String>> {
     let folder = &args.folder;
     if let Some(host) = args.host.iter().find(|host| ServerName::try_from(host.as_str()).is_err()) {
         return Err(Usage(format!("--host {host}: it is neither a host's name nor an address")).into());
@@ -94,12 +100,35 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
         if is_complete && !args.renew {
             continue;
         }
-        let (text, private) = issue(role, &hosts, args.days, &authority)?;
+        let (text, private) = issue(role, role.common_name(), &hosts, args.days, &authority)?;
         write(&key, &private, 0o600)?;
         write(&certificate, &text, 0o644)?;
-        made.push(role.name());
+        made.push(role.name().to_string());
+    }
+    let pools = folder.join("pools");
+    let old = fs::read_dir(&pools).into_iter().flatten().flatten().filter(|_| args.renew);
+    let old = old.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| pool_name(name).is_ok());
+    for pool in args.pool.iter().cloned().chain(old).collect::<BTreeSet<_>>() {
+        let own = pools.join(&pool);
+        let [certificate, key] = Credentials { folder: own.clone(), role: Role::Actor }.files();
+        if certificate.exists() && key.exists() && !args.renew {
+            continue;
+        }
+        fs::create_dir_all(&own).with_context(|| format!("cannot create the folder `{}`", own.display()))?;
+        let name = Role::common_name_of_pool(&pool);
+        let (text, private) = issue(Role::Actor, name, &[], args.days, &authority)?;
+        let root = Credentials::authority(folder);
+        let root = fs::read_to_string(&root).with_context(|| format!("cannot read `{}`", root.display()))?;
+        write(&Credentials::authority(&own), &root, 0o644)?;
+        write(&key, &private, 0o600)?;
+        write(&certificate, &text, 0o644)?;
+        made.push(format!("the pool {pool}"));
     }
     Ok(made)
+}
+
+fn pool_name(given: &str) -> Result<String, String> {
+    check_ident("pool", given).map(|()| given.to_string()).map_err(|why| why.to_string())
 }
 
 /// Returns the hosts of a new certificate: those of the old one, or this machine's, then the given ones.
@@ -161,16 +190,17 @@ fn authority(folder: &Path, days: u32) -> anyhow::Result<Issuer<'static, KeyPair
     }
 }
 
-/// Returns certificate and private key of a role.
+/// Returns certificate and private key of a role, in the name of `common_name`.
 fn issue(
     role: Role,
+    common_name: String,
     hosts: &[String],
     days: u32,
     authority: &Issuer<'static, KeyPair>,
 ) -> anyhow::Result<(String, String)> {
     let names = if role.listens() { hosts.to_vec() } else { Vec::new() };
     let mut params = CertificateParams::new(names).map_err(|why| Usage(format!("--host: {why}")))?;
-    params.distinguished_name.push(DnType::CommonName, role.common_name());
+    params.distinguished_name.push(DnType::CommonName, common_name);
     params.key_usages = vec![KeyUsagePurpose::DigitalSignature];
     params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth];
     if role.listens() {

@@ -14,7 +14,7 @@ use crate::{
         run_args::{AnyRunArgs, NewRunArgs},
     },
     page::flags::TrainPageArgs,
-    shared::network_args::{NetworkArgs, check_run},
+    shared::network_args::{NetworkArgs, PoolAccessArgs, check_run},
 };
 
 /// Flags of `learner`.
@@ -26,6 +26,8 @@ pub struct LearnerArgs {
     any: AnyRunArgs,
     #[command(flatten)]
     network: NetworkArgs,
+    #[command(flatten)]
+    pools: PoolAccessArgs,
     #[command(flatten)]
     metrics: MetricsArgs,
     #[command(flatten)]
@@ -49,7 +51,8 @@ pub fn run(args: LearnerArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let launcher = Launcher { command: RunCommand::Learner, tasks };
     check_run(args.run.as_deref())?;
     let role = if args.standby { Role::Standby } else { Role::Learner };
-    let options = args.network.listening_options(role, args.listen, args.connect)?;
+    let mut options = args.network.listening_options(role, args.listen, args.connect)?;
+    args.pools.add_to(&mut options)?;
     certificates::check_own(options.credentials.as_ref())?;
     let (metrics, watch) = (args.metrics.listen()?, args.page.open(args.network.tls.as_deref())?);
     let (new, any) = (&args.new, &args.any);

@@ -16,7 +16,7 @@ use crate::{
         async_runtime, link_page::LinkPage, memory, metrics_page::PageArgs, output::say, restart::restart,
         router_session, signals,
     },
-    shared::network_args::NetworkArgs,
+    shared::network_args::{NetworkArgs, PoolAccessArgs},
 };
 
 /// Flags of `router`.
@@ -30,6 +30,8 @@ pub struct RouterArgs {
     connect: Vec<String>,
     #[command(flatten)]
     network: NetworkArgs,
+    #[command(flatten)]
+    pools: PoolAccessArgs,
     #[command(flatten)]
     page: PageArgs,
     /// Silence of a learner after which the router starts anew (s).
@@ -52,7 +54,8 @@ const PAUSE: Duration = Duration::from_secs(2);
 
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
-    let options = args.network.listening_options(Role::Router, args.listen, args.connect)?;
+    let mut options = args.network.listening_options(Role::Router, args.listen, args.connect)?;
+    args.pools.add_to(&mut options)?;
     certificates::check_own(options.credentials.as_ref())?;
     let page = args.page.listen()?;
     memory::use_one_arena();

@@ -102,7 +102,9 @@ fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Resul
     }
     check_key(&der, &shown.to_string(), &key_file)?;
     let common_name = certificate.subject().iter_common_name().next().and_then(|name| name.as_str().ok());
-    if common_name != Some(&role.common_name()) {
+    let is_pool =
+        role == Role::Actor && common_name.is_some_and(|name| name.starts_with(&Role::common_name_of_pool("")));
+    if common_name != Some(&role.common_name()) && !is_pool {
         let (found, expected) = (common_name.unwrap_or(""), role.common_name());
         let seen = format!("{shown} belongs to `{found}`; the bus expects `{expected}`");
         return Err(Finding::problem(NAME, seen, "give each file the name of its role, as `treadmill certs` does"));

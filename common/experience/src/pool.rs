@@ -79,8 +79,9 @@ impl Want {
         Self {
             share: demand.share,
             own: f64::from(demand.envs_own) / f64::from(unit),
-            low: f64::from(low.min(high)),
-            high: f64::from(high),
+            // What it cannot have at least, it has not at all.
+            low: if low <= high { f64::from(low) } else { 0.0 },
+            high: if low <= high { f64::from(high) } else { 0.0 },
             order: checksum(&[demand.run.as_bytes()]),
         }
     }
@@ -120,12 +121,21 @@ struct Member {
     since: Duration,
 }
 
+/// Another run.
+#[derive(Clone, Debug)]
+struct Other {
+    demand: PoolDemand,
+    heard: Duration,
+    /// Environments of the pool that it should have, by this learner's view.
+    target: u32,
+}
+
 /// Part of one learner in the pool. Times are since it started.
 #[derive(Clone, Debug)]
 pub struct PoolShare {
     /// Its own demand. The numbers of what it has follow from the actors.
     demand: PoolDemand,
-    others: BTreeMap<String, (PoolDemand, Duration)>,
+    others: BTreeMap<String, Other>,
     /// Environments of every actor of the pool.
     actors: BTreeMap<String, u32>,
     members: BTreeMap<String, Member>,
@@ -153,21 +163,22 @@ impl PoolShare {
         self.count();
     }
 
-    /// Records the demand of another run.
+    /// Records the demand of another run; [`Self::set_actors`] takes it into account. Actors of another physics than this
+    /// run's are none of its pool.
     pub fn hear(&mut self, demand: PoolDemand, now: Duration) {
         let known = self.others.get(&demand.run);
-        let is_older = known.is_some_and(|(known, _)| known.epoch > demand.epoch);
+        let is_older = known.is_some_and(|known| known.demand.epoch > demand.epoch);
         let has_room = known.is_some() || self.others.len() < RUNS_MAX;
-        if demand.run != self.demand.run && !is_older && has_room {
-            self.others.insert(demand.run.clone(), (demand, now));
-            self.count();
+        let is_other = demand.run != self.demand.run && demand.physics_version == self.demand.physics_version;
+        if is_other && !is_older && has_room {
+            let target = demand.envs_target;
+            self.others.insert(demand.run.clone(), Other { demand, heard: now, target });
         }
     }
 
-    /// Forgets a run whose learner is gone.
+    /// Forgets a run whose learner is gone; [`Self::set_actors`] takes it into account.
     pub fn forget(&mut self, run: &str) {
         self.others.remove(run);
-        self.count();
     }
 
     /// Sets the actors of the whole pool with their environments, and the names of all actors that are in this run.
@@ -180,26 +191,23 @@ impl PoolShare {
             self.members.entry(name.clone()).or_insert(Member { since: now });
         }
         self.granted.retain(|name, until| *until > now && !in_run.contains(name) && pool.contains_key(name));
-        self.others.retain(|_, (_, heard)| now < *heard + DEMAND_LASTS);
+        self.others.retain(|_, other| now < other.heard + DEMAND_LASTS);
         self.count();
     }
 
-    /// Answers an actor that would join; an admitted one has its place for [`GRANT`].
-    pub fn admit(&mut self, actor: &str, is_idle: bool, now: Duration) -> bool {
+    /// Answers an actor that would join; an admitted one has its place for [`GRANT`]. One that is stranded has no run, and
+    /// those with room refused it: remainders of the rounding, or a run that it cannot join.
+    pub fn admit(&mut self, actor: &str, is_stranded: bool, now: Duration) -> bool {
         let Some(envs) = self.actors.get(actor).copied() else { return false };
         if self.members.contains_key(actor) || self.granted.contains_key(actor) {
             return true;
         }
-        let PoolDemand { envs: has, envs_target: target, envs_max, envs_own, open, .. } = self.demand;
+        let PoolDemand { envs: has, envs_target: target, envs_min, envs_max, envs_own, open, share, .. } = self.demand;
         // The run must come nearer to its target.
         let is_wanted = has < target && (has + envs).saturating_sub(target) <= target - has;
-        let is_of_use = || {
-            // Remainders of the rounding: of use somewhere, as long as no run has room.
-            let has_room = |demand: &PoolDemand| demand.open && demand.envs + envs <= demand.envs_target;
-            is_idle && open && self.demand.share > 0.0 && !self.others.values().any(|(demand, _)| has_room(demand))
-        };
-        let fits = has.saturating_add(envs_own).saturating_add(envs) <= envs_max;
-        let admitted = fits && (is_wanted || is_of_use());
+        let with_it = has.saturating_add(envs_own).saturating_add(envs);
+        let is_of_use = is_stranded && open && share > 0.0 && with_it >= envs_min;
+        let admitted = with_it <= envs_max && (is_wanted || is_of_use);
         if admitted {
             self.granted.insert(actor.to_string(), now + GRANT);
             self.count();
@@ -215,10 +223,10 @@ impl PoolShare {
         let mut lacking: Vec<Lack> = self
             .others
             .values()
-            .filter(|(demand, _)| demand.open && demand.envs < demand.envs_target)
-            .map(|(demand, _)| Lack {
-                envs: f64::from(demand.envs_target - demand.envs),
-                target: f64::from(demand.envs_target),
+            .filter(|Other { demand, target, .. }| demand.open && demand.envs < *target)
+            .map(|Other { demand, target, .. }| Lack {
+                envs: f64::from(target - demand.envs),
+                target: f64::from(*target),
                 room: f64::from(demand.envs_max) - f64::from(demand.envs_own) - f64::from(demand.envs),
                 order: checksum(&[self.demand.run.as_bytes(), demand.run.as_bytes()]),
             })
@@ -228,6 +236,7 @@ impl PoolShare {
             let is_new = now < member.since + SETTLED;
             (is_new, checksum(&[self.demand.run.as_bytes(), name.as_bytes()]))
         });
+        let takes_none = self.demand.envs_wanted() == 0;
         let mut released = Vec::new();
         for (name, member) in members {
             let Some(envs) = self.actors.get(name).map(|envs| f64::from(*envs)) else { continue };
@@ -238,7 +247,8 @@ impl PoolShare {
             let surplus = has - target;
             let gain = surplus.abs() - (surplus - envs).abs() + lack.envs - (lack.envs - envs).abs();
             let is_large = gain > LARGE_GAIN * (target + lack.target);
-            if surplus > 0.0 && gain > 0.0 && (now >= member.since + SETTLED || is_large) {
+            let may_move = takes_none || is_large || now >= member.since + SETTLED;
+            if surplus > 0.0 && gain > 0.0 && may_move {
                 released.push(name.clone());
                 has -= envs;
                 lack.envs -= envs;
@@ -255,7 +265,7 @@ impl PoolShare {
 
     /// Returns whether the run has room for an actor that has no run, if there is one.
     pub fn has_room_for_idle(&self) -> bool {
-        let others: u32 = self.others.values().map(|(demand, _)| demand.envs).fold(0, u32::saturating_add);
+        let others: u32 = self.others.values().map(|other| other.demand.envs).fold(0, u32::saturating_add);
         let idle = self.demand.pool_envs.saturating_sub(others).saturating_sub(self.demand.envs);
         idle > 0 && self.demand.envs < self.demand.envs_target
     }
@@ -268,18 +278,26 @@ impl PoolShare {
         self.demand.pool_actors = self.actors.len() as u32;
         self.demand.pool_envs = self.actors.values().copied().fold(0, u32::saturating_add);
         let demands: Vec<&PoolDemand> =
-            [&self.demand].into_iter().chain(self.others.values().map(|(demand, _)| demand)).collect();
-        self.demand.envs_target = targets(&demands, self.demand.pool_envs, self.unit())[0];
-    }
-
-    /// Returns the most frequent number of environments of an actor, the smaller one of two.
-    fn unit(&self) -> u32 {
-        let mut counts = BTreeMap::<u32, usize>::new();
-        for envs in self.actors.values() {
-            *counts.entry(*envs).or_default() += 1;
+            [&self.demand].into_iter().chain(self.others.values().map(|other| &other.demand)).collect();
+        // An actor that no run can take must not spoil the division of the others.
+        let largest = demands.iter().map(|demand| demand.envs_wanted()).max().unwrap_or_default();
+        let of_use: Vec<u32> = self.actors.values().copied().filter(|envs| *envs <= largest).collect();
+        let envs = of_use.iter().copied().fold(0, u32::saturating_add);
+        let targets = targets(&demands, envs, usual(&of_use));
+        self.demand.envs_target = targets[0];
+        for (other, target) in self.others.values_mut().zip(&targets[1..]) {
+            other.target = *target;
         }
-        counts.into_iter().max_by_key(|(envs, count)| (*count, Reverse(*envs))).map_or(1, |(envs, _)| envs)
     }
+}
+
+/// Returns the most frequent number, the smallest one of several; 1 if there is none.
+fn usual(numbers: &[u32]) -> u32 {
+    let mut counts = BTreeMap::<u32, usize>::new();
+    for number in numbers {
+        *counts.entry(*number).or_default() += 1;
+    }
+    counts.into_iter().max_by_key(|(number, count)| (*count, Reverse(*number))).map_or(1, |(number, _)| number)
 }
 
 #[cfg(test)]

@@ -73,6 +73,7 @@ impl Model {
         let demands: Vec<PoolDemand> = self.shares.iter().map(|share| share.demand().clone()).collect();
         for share in &mut self.shares {
             demands.iter().for_each(|demand| share.hear(demand.clone(), self.now));
+            share.set(|_| {});
         }
     }
 
@@ -84,7 +85,9 @@ impl Model {
             i64::from(demand.envs_target) - i64::from(demand.envs)
         };
         runs.sort_by_key(|run| Reverse(lack(*run)));
-        let found = runs.into_iter().find(|run| self.shares[*run].admit(name, but.is_none(), self.now));
+        let mut admits =
+            |stranded: bool| runs.iter().find(|run| self.shares[**run].admit(name, stranded, self.now)).copied();
+        let found = admits(false).or_else(|| if but.is_none() { admits(true) } else { None });
         if let Some(run) = found {
             self.actors.get_mut(name).unwrap().1 = Some(run);
             self.moves += 1;
@@ -168,10 +171,48 @@ fn an_actor_that_just_came_moves_for_a_large_gain_only() {
         let soon = Duration::from_secs(10);
         share.set_actors(&pool, &in_run, soon);
         assert_eq!(share.releases(soon).len(), released, "{count}");
-        share.hear(PoolDemand { envs: others, envs_target: half, ..small.clone() }, SETTLED);
+        share.hear(PoolDemand { envs: others, ..small.clone() }, SETTLED);
         share.set_actors(&pool, &in_run, SETTLED);
         assert_eq!(share.releases(SETTLED).len(), released.max(1), "{count}, later");
     }
+}
+
+#[test]
+fn a_paused_run_gives_its_actors_free_at_once() {
+    let mut share = PoolShare::new(demand("a", 1.0, 0, 64));
+    let pool: BTreeMap<String, u32> = (0..64).map(|i| (format!("a{i}"), 32)).collect();
+    let in_run: BTreeSet<String> = ["a1", "a2"].map(String::from).into();
+    share.hear(PoolDemand { envs: 62 * 32 - 64, ..demand("b", 1.0, 0, 2000) }, Duration::ZERO);
+    share.set_actors(&pool, &in_run, Duration::ZERO);
+    assert_eq!(share.releases(Duration::ZERO), [""; 0], "it has what it should have");
+    share.set(|demand| demand.open = false);
+    assert_eq!(share.releases(Duration::ZERO).len(), 2, "each is a small gain for the other run");
+}
+
+#[test]
+fn an_actor_that_no_run_with_room_takes_works_elsewhere() {
+    let mut share = PoolShare::new(demand("a", 1.0, 96, 128));
+    let pool: BTreeMap<String, u32> = [("one".to_string(), 32), ("two".to_string(), 32)].into();
+    // The other run's rules may not admit these actors.
+    share.hear(demand("b", 99.0, 0, 999), Duration::ZERO);
+    share.set_actors(&pool, &BTreeSet::new(), Duration::ZERO);
+    assert!(!share.admit("one", false, Duration::ZERO));
+    assert!(!share.admit("one", true, Duration::ZERO), "32 are of no use to a run that needs 96");
+    share.set(|demand| demand.envs_min = 0);
+    assert!(share.admit("one", true, Duration::ZERO) && share.admit("two", true, Duration::ZERO));
+    share.hear(PoolDemand { physics_version: 7, ..demand("c", 99.0, 0, 999) }, Duration::ZERO);
+    share.forget("b");
+    share.set_actors(&pool, &BTreeSet::new(), Duration::ZERO);
+    assert_eq!(share.demand().envs_target, 64, "actors cannot join a run of another physics");
+}
+
+#[test]
+fn actors_that_no_run_can_take_do_not_spoil_the_division() {
+    let mut share = PoolShare::new(demand("a", 1.0, 0, 512));
+    let large = (0..9).map(|i| (format!("l{i}"), 65_536));
+    let pool: BTreeMap<String, u32> = large.chain([("one".to_string(), 32)]).collect();
+    share.set_actors(&pool, &BTreeSet::new(), Duration::ZERO);
+    assert_eq!(share.demand().envs_target, 32);
 }
 
 proptest! {
@@ -190,7 +231,8 @@ proptest! {
         model.publish();
         for (share, has) in model.shares.iter().zip(model.has()) {
             prop_assert!(share.releases(model.now).is_empty());
-            prop_assert!(has <= share.demand().envs_max || has == 0);
+            prop_assert!(has <= share.demand().envs_max);
+            prop_assert!(has == 0 || has >= share.demand().envs_min.min(*sizes.iter().min().unwrap()));
         }
         let idle: Vec<String> =
             model.actors.iter().filter(|(_, (_, run))| run.is_none()).map(|(name, _)| name.clone()).collect();

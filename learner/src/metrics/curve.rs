@@ -216,7 +216,7 @@ pub(super) fn axes<'a, 'b>(
     area: &'a Area<'b>,
     steps: Range<f64>,
     values: Range<f64>,
-    axis: &str,
+    [x, y]: [&str; 2],
 ) -> Result<Chart<'a, 'b>, DrawError> {
     let (steps_span, values_span) = (steps.end, values.end - values.start);
     let mut chart = ChartBuilder::on(area)
@@ -238,8 +238,8 @@ pub(super) fn axes<'a, 'b>(
         .y_labels(7)
         .x_label_formatter(&|steps| if *steps == 0.0 { "0".into() } else { axis_label(*steps, steps_span) + " M" })
         .y_label_formatter(&|value| axis_label(*value, values_span))
-        .x_desc("environment steps")
-        .y_desc(axis)
+        .x_desc(x)
+        .y_desc(y)
         .draw()?;
     Ok(chart)
 }
@@ -288,7 +288,7 @@ impl Image<'_> {
         let steps = 0.0..if most > 0.0 { most } else { 1.0 };
         let values = value_range(&all, standing.filter(|_| !all.is_empty()), panel.from_zero);
         let middle = (steps.end / 2.0, (values.start + values.end) / 2.0);
-        let mut chart = axes(area, steps.clone(), values.clone(), panel.axis)?;
+        let mut chart = axes(area, steps.clone(), values.clone(), ["environment steps", panel.axis])?;
         for resume in &self.points.resumes {
             chart.draw_series(dashed(&[(*resume, values.start), (*resume, values.end)], LABEL, 1))?;
         }

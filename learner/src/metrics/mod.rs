@@ -53,7 +53,7 @@ pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::{MetricsReport, ReportOptions};
 pub use reward_terms::RewardTerms;
-pub use sweep_curve::{SweptCurve, draw_sweep};
+pub use sweep_curve::{GoalCost, SweptCurve, draw_sweep};
 pub use tensorboard::{EventWriter, Histogram};
 
 use std::fs::File;

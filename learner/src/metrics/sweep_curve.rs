@@ -31,25 +31,44 @@ pub struct SweptCurve {
     pub lines: Vec<Vec<(PathBuf, u64)>>,
 }
 
+/// What the trials of a sweep reached of its goal, against what they cost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GoalCost {
+    /// Goal in words.
+    pub goal: String,
+    /// For each trial that reached something, the environment steps of all trials up to it, in millions, and what it reached.
+    pub trials: Vec<(f64, f64)>,
+    /// The same for the best so far.
+    pub best: Vec<(f64, f64)>,
+}
+
 /// Steps in millions, with the mean, the least and the greatest value of several curves.
 type Band = Vec<(f64, [f64; 3])>;
 
-/// Draws the curves of a metric and of the return, with the best setting, which is the first, in colour. The image replaces
-/// an older one atomically.
+/// Draws the curves of a metric and of the return, with the best setting, which is the first, in colour; and the goal
+/// against its cost. The image replaces an older one atomically.
 ///
 /// # Errors
 /// If the image cannot be drawn or written. Logs that cannot be read are left out.
-pub fn draw_sweep(title: &str, curves: &[SweptCurve], tag: &str, png: &Path) -> Result<(), CurveError> {
+pub fn draw_sweep(
+    title: &str,
+    curves: &[SweptCurve],
+    tag: &str,
+    cost: &GoalCost,
+    png: &Path,
+) -> Result<(), CurveError> {
     let tags = if tag == RETURN { vec![RETURN] } else { vec![tag, RETURN] };
     let bands: Vec<Vec<Band>> = curves.iter().map(|curve| bands(curve, &tags)).collect();
-    let size = (WIDTH, HEADER_HEIGHT + PANEL_HEIGHT * tags.len() as u32);
+    let panel_count = tags.len() + 1;
+    let size = (WIDTH, HEADER_HEIGHT + PANEL_HEIGHT * panel_count as u32);
     let rgb = painted(size, title, |panels| {
-        let areas = panels.split_evenly((tags.len(), 1));
-        areas.iter().enumerate().try_for_each(|(index, area)| {
+        let areas = panels.split_evenly((panel_count, 1));
+        areas.iter().zip(&tags).enumerate().try_for_each(|(index, (area, tag))| {
             let of_tag: Vec<&Band> = bands.iter().map(|bands| &bands[index]).collect();
             let best = curves.first().map(|curve| curve.name.as_str()).filter(|name| !name.is_empty());
-            draw_panel(tags[index], best, &of_tag, area)
-        })
+            draw_panel(tag, best, &of_tag, area)
+        })?;
+        draw_cost(cost, &areas[panel_count - 1])
     });
     let draw = |why: String| CurveError::Draw { path: png.to_path_buf(), why };
     let rgb = rgb.map_err(|error| draw(error.to_string()))?;
@@ -66,7 +85,7 @@ fn draw_panel(tag: &str, best: Option<&str>, bands: &[&Band], area: &Area<'_>) -
     let most = all.iter().map(|point| point.0).fold(0.0, f64::max);
     let (steps, values) = (0.0..if most > 0.0 { most } else { 1.0 }, value_range(&all, None, false));
     let middle = (steps.end / 2.0, (values.start + values.end) / 2.0);
-    let mut chart = axes(area, steps, values, tag)?;
+    let mut chart = axes(area, steps, values, ["environment steps", tag])?;
     if all.is_empty() {
         let style = font(22).color(&LABEL).pos(Pos::new(HPos::Center, VPos::Center));
         chart.draw_series([Text::new(format!("no points of {tag}"), middle, style)])?;
@@ -87,6 +106,25 @@ fn draw_panel(tag: &str, best: Option<&str>, bands: &[&Band], area: &Area<'_>) -
         Some(best) => format!("{tag}: in colour {best}"),
         None => format!("{tag}: mean and range of the runs"),
     };
+    draw_caption(&caption, area)
+}
+
+/// Draws the goal against its cost.
+fn draw_cost(cost: &GoalCost, area: &Area<'_>) -> Result<(), DrawError> {
+    let most = cost.trials.iter().map(|point| point.0).fold(0.0, f64::max);
+    let steps = 0.0..if most > 0.0 { most } else { 1.0 };
+    let mut chart =
+        axes(area, steps, value_range(&cost.trials, None, false), ["environment steps of all trials", "goal"])?;
+    let points = cost.trials.iter().map(|point| Circle::new(*point, 4 * SCALE as i32, LABEL.filled()));
+    chart.draw_series(points)?;
+    // The best so far holds until a trial is better.
+    let held = cost.best.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
+    let last = cost.best.last().map(|last| [*last, (most, last.1)]);
+    chart.draw_series(LineSeries::new(held.chain(last.into_iter().flatten()), BLUE.stroke_width(3 * SCALE)))?;
+    draw_caption(&format!("Each trial, and in colour the best so far: {}", cost.goal), area)
+}
+
+fn draw_caption(caption: &str, area: &Area<'_>) -> Result<(), DrawError> {
     let caption: String = caption.chars().take(CAPTION_CHARS_MAX).collect();
     let style = font(20).color(&TITLE).pos(Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(caption, scaled(24, 26), style))
@@ -179,8 +217,13 @@ mod tests {
         assert_eq!(points[0].len(), 15);
         assert!(points[0].is_sorted_by(|a, b| a.0 < b.0), "{points:?}");
         let png = folder.path().join("sweep.png");
+        let cost = GoalCost {
+            goal: "highest return".to_string(),
+            trials: vec![(1.0, 3.0), (2.0, 1.0), (3.0, 7.0)],
+            best: vec![(1.0, 3.0), (3.0, 7.0)],
+        };
         let draw = |curves: &[SweptCurve], tag: &str| {
-            draw_sweep("runs/S", curves, tag, &png).unwrap();
+            draw_sweep("runs/S", curves, tag, &cost, &png).unwrap();
             std::fs::read(&png).unwrap()
         };
         let curve = |name: &str| SweptCurve { name: name.to_string(), lines: vec![vec![(one.clone(), u64::MAX)]] };
@@ -189,6 +232,8 @@ mod tests {
         assert_ne!(alone, draw(&[], RETURN));
         let two_panels = draw(&[curve("a"), SweptCurve::default()], "rollout/distance_mean_m");
         let height = |png: &[u8]| u32::from_be_bytes(png[20..24].try_into().unwrap());
-        assert_eq!((height(&alone), height(&two_panels)), (440, 820));
+        assert_eq!((height(&alone), height(&two_panels)), (820, 1200));
+        draw_sweep("runs/S", &[curve("a")], RETURN, &GoalCost::default(), &png).unwrap();
+        assert_ne!(std::fs::read(&png).unwrap(), alone, "nothing was reached");
     }
 }

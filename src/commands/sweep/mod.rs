@@ -15,7 +15,10 @@ mod search;
 mod space;
 mod trials;
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use anyhow::Context;
 use clap::{Arg, ArgAction, Args, parser::ValueSource};
@@ -23,7 +26,7 @@ use treadmill_bus::Role;
 use treadmill_config::{Config, ConfigSource, given_value};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_ppo::BatchSize;
-use treadmill_runtime::{machine, shutdown::Shutdown, words::quoted};
+use treadmill_runtime::{machine, seeds, shutdown::Shutdown, words::quoted};
 
 use self::{
     goal::Goal,
@@ -47,6 +50,8 @@ use crate::{
 
 /// Seeds without a search file: two runs can agree by chance.
 const SEEDS: usize = 3;
+/// Most characters of a sweep's name in those of its runs.
+const SWEEP_CHARS_MAX: usize = 40;
 /// Most wrong settings that a message names.
 const WRONG_MAX: usize = 5;
 /// Flags that are the sweep's own, or mean something else here than for a trial.
@@ -174,7 +179,10 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         Ended::All => {}
         Ended::Stopped => {
             let left = plan.unfinished().len();
-            say(&format!("stopped with {left} of {} trials to go; go on with: {go_on}", plan.trials.len()));
+            let stopped = format!("stopped with {left} of {} trials to go", plan.trials.len());
+            // To whatever runs a service, success means that all trials have ended.
+            anyhow::ensure!(!args.any.resume_or_start, "{stopped}; start it again to go on");
+            say(&format!("{stopped}; go on with: {go_on}"));
             return Ok(());
         }
         Ended::NoRoom => anyhow::bail!(
@@ -283,6 +291,7 @@ fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> any
         parallel: args.parallel.map_or_else(trials_at_once, |parallel| parallel as usize),
         deterministic: config.run.deterministic,
         connect: args.connect.clone(),
+        bus_name: bus_name(args.new.run_dir.as_deref()),
         goal: String::new(),
         seed: config.run.seed,
         steps: config.run.steps,
@@ -306,12 +315,30 @@ fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> any
     Ok(plan)
 }
 
+/// Returns the name of a new sweep on a bus: that of its folder, and a number of its own.
+fn bus_name(root: Option<&Path>) -> String {
+    let name = root.and_then(Path::file_name).unwrap_or("sweep".as_ref()).to_string_lossy().to_lowercase();
+    let allowed = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '-' };
+    let name: String = name.chars().map(allowed).take(SWEEP_CHARS_MAX).collect();
+    format!("{name}-{:08x}", seeds::unique() as u32)
+}
+
 /// Returns how many trials this machine trains at once: with one core each they are together faster than one after the
 /// other with all cores, because nothing waits for another process.
 fn trials_at_once() -> usize {
     let by_memory =
         machine::memory_bytes().map_or(usize::MAX, |bytes| (bytes / (LEARNER_BYTES + ACTOR_BYTES)) as usize);
     machine::cores().min(by_memory).max(1)
+}
+
+/// Returns why a run takes no actors of a pool, if so.
+fn takes_no_pool(config: &Config) -> Option<&'static str> {
+    match (config.run.deterministic, config.is_external(), config.run.share == 0.0) {
+        (true, ..) => Some("`run.deterministic` is true, and such a run takes no actors of a pool"),
+        (_, true, _) => Some("`env.task` is \"external\", and such a run takes no actors of a pool"),
+        (.., true) => Some("`run.share` is 0, and such a run takes no actors of a pool"),
+        _ => None,
+    }
 }
 
 /// Checks the configuration of every trial. `changes` are keys of flags, which come after those of the search.
@@ -324,6 +351,9 @@ fn check_trials(plan: &Plan, source: &ConfigSource, changes: &[(&str, toml::Valu
             Ok(config) => config,
             Err(why) => return Some(why.to_string()),
         };
+        if let (false, Some(why)) = (plan.connect.is_empty(), takes_no_pool(&config)) {
+            return Some(format!("--connect: {why}; set another value, or leave --connect out"));
+        }
         let lost = keys.iter().find(|(key, value)| !space::is_same(&config.value_of(key), value));
         lost.map(|(key, _)| format!("`{key}` is set by another flag too; leave that out"))
     };

@@ -47,6 +47,9 @@ pub(crate) struct Plan {
     /// Endpoints of the router of a pool whose actors the trials use; without any, each trial has its own.
     #[serde(default)]
     pub(crate) connect: Vec<String>,
+    /// Begin of the names of its runs at that router, where other sweeps of the same name may be.
+    #[serde(default)]
+    pub(crate) bus_name: String,
     pub(crate) goal: String,
     /// Seed of the first trial and of what is drawn.
     pub(crate) seed: u64,

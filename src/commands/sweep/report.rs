@@ -6,7 +6,7 @@ use std::{
 };
 
 use serde_json::json;
-use treadmill_learner::metrics::{SweptCurve, draw_sweep, table::format_number};
+use treadmill_learner::metrics::{GoalCost, SweptCurve, draw_sweep, table::format_number};
 use treadmill_runtime::{
     error_chain,
     numbers::thousands,
@@ -142,16 +142,36 @@ pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value 
     })
 }
 
-fn draw(plan: &Plan, SweepResults { root, goal, .. }: &SweepResults, settings: &[SettingResult]) {
+fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) {
+    let SweepResults { root, goal, .. } = results;
     let curve = |found: &SettingResult| SweptCurve {
         name: keys_text(&plan.trials[found.trials[0]].keys),
         lines: found.trials.iter().map(|index| line(root, plan, *index)).collect(),
     };
     let curves: Vec<SweptCurve> = settings.iter().map(curve).collect();
     let title = format!("{}: {goal}", root.file_name().unwrap_or_default().to_string_lossy());
-    if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &root.join("sweep.png")) {
+    if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &cost(plan, results), &root.join("sweep.png")) {
         say_error(&format!("the picture is missing: {}", error_chain(&why)));
     }
+}
+
+/// Returns what the trials reached, in their order, against what they cost.
+fn cost(plan: &Plan, results: &SweepResults) -> GoalCost {
+    let goal = &results.goal;
+    let mut cost = GoalCost { goal: goal.to_string(), ..GoalCost::default() };
+    let mut steps_m = 0.0;
+    for (index, trial) in plan.trials.iter().enumerate() {
+        let Some(found) = results.of(index) else { continue };
+        // A fork begins with the steps of its parent.
+        let begun = trial.parent.map_or(0, |(_, steps)| steps);
+        steps_m += found.record.env_steps.saturating_sub(begun) as f64 / 1e6;
+        let Some(reached) = found.reached else { continue };
+        cost.trials.push((steps_m, reached));
+        if cost.best.last().is_none_or(|(_, best)| goal.order(Some(reached)) < goal.order(Some(*best))) {
+            cost.best.push((steps_m, reached));
+        }
+    }
+    cost
 }
 
 /// Returns a path from the working directory, if it is below it.

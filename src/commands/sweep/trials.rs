@@ -23,8 +23,6 @@ const ROOM_MIN_BYTES: u64 = 64 << 20;
 const KILLS_MAX: u32 = 8;
 /// Wait for a process that is about to leave a trial's folder.
 const LOCK_TIMEOUT: Duration = Duration::from_secs(10);
-/// Most characters of a sweep's name in that of a run.
-const SWEEP_CHARS_MAX: usize = 48;
 /// Most bytes of a log's end that are searched for an error.
 const LOG_END_BYTES: i64 = 8 << 10;
 
@@ -155,13 +153,6 @@ impl TrialRunner<'_> {
         Command::from(command).spawn().context("a trial cannot be started")
     }
 
-    /// Returns the name of a trial's run on the bus, where other sweeps may be.
-    fn run_name(&self, index: usize) -> String {
-        let name = self.folder.root().file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-        let allowed = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '-' };
-        format!("{}-trial-{}", name.chars().map(allowed).take(SWEEP_CHARS_MAX).collect::<String>(), index + 1)
-    }
-
     /// Returns the command line of a trial, which is the same at each of its starts, but for the number of its actors.
     fn arguments(&self, plan: &Plan, index: usize, actors: usize) -> Vec<String> {
         let Trial { seed, keys, parent, .. } = &plan.trials[index];
@@ -172,7 +163,7 @@ impl TrialRunner<'_> {
         if !plan.connect.is_empty() {
             let is_encrypted = plan.flags.iter().any(|flag| flag.starts_with("--tls"));
             words.push(format!("--listen={}/127.0.0.1:0", if is_encrypted { "tls" } else { "tcp" }));
-            words.push(format!("--run={}", self.run_name(index)));
+            words.push(format!("--run={}-trial-{}", plan.bus_name, index + 1));
         }
         words.extend(flags(plan, parent.is_some(), self.pause_at.is_some()));
         words.extend(keys.iter().map(|(key, value)| format!("--set={key}={value}")));

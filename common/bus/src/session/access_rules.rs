@@ -4,7 +4,10 @@
 //! holder's role. The learner and routers allow each role only what its work needs, and drop everything else on arrival
 //! without an answer.
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use serde_json::{Value, json};
 use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, POSE_BYTES_MAX, SMALL_BYTES_MAX, STATS_BYTES_MAX};
@@ -53,23 +56,43 @@ impl Credentials {
     }
 }
 
+/// Runs that the certificate of a pool's actors admits to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdmittedPool {
+    /// Name of the pool.
+    pub pool: String,
+    /// Names of runs; one that ends with `*` stands for all that begin so.
+    pub runs: Vec<String>,
+}
+
 /// Returns Zenoh's access control settings of learners and routers.
-pub(super) fn access() -> Value {
+pub(super) fn access(pools: &[AdmittedPool]) -> Value {
     let mut rules = Vec::new();
     let mut policies = Vec::new();
-    for role in Role::ALL {
+    let mut subjects = Vec::new();
+    let mut add = |name: &str, common_name: String, granted: Vec<Grant>, runs: Option<&[String]>| {
         let mut ids = Vec::new();
-        for (number, Grant { flows, messages, keys }) in grants(role).into_iter().enumerate() {
-            let id = format!("{}-{number}", role.name());
+        for (number, Grant { flows, messages, keys }) in granted.into_iter().enumerate() {
+            let id = format!("{name}-{number}");
+            let keys: Vec<String> = keys.iter().flat_map(|key| of_runs(key, runs)).collect();
             rules.push(json!({
                 "id": id, "permission": "allow", "flows": flows, "messages": messages, "key_exprs": keys,
             }));
             ids.push(id);
         }
-        policies.push(json!({"rules": ids, "subjects": [role.name()]}));
+        policies.push(json!({"rules": ids, "subjects": [name]}));
+        subjects.push(json!({"id": name, "cert_common_names": [common_name]}));
+    };
+    for role in Role::ALL {
+        add(role.name(), role.common_name(), grants(role), None);
     }
-    let subjects: Vec<Value> =
-        Role::ALL.map(|role| json!({"id": role.name(), "cert_common_names": [role.common_name()]})).into();
+    let mut of_pools = BTreeMap::<&str, Vec<String>>::new();
+    for AdmittedPool { pool, runs } in pools {
+        of_pools.entry(pool).or_default().extend_from_slice(runs);
+    }
+    for (pool, runs) in &of_pools {
+        add(&format!("pool-{pool}"), Role::common_name_of_pool(pool), grants(Role::Actor), Some(runs));
+    }
     json!({
         "enabled": true,
         "default_permission": "deny",
@@ -77,6 +100,18 @@ pub(super) fn access() -> Value {
         "subjects": subjects,
         "policies": policies,
     })
+}
+
+/// Returns a key for these runs only, unless it has none or says only which runs there are and what they want.
+fn of_runs(key: &str, runs: Option<&[String]>) -> Vec<String> {
+    match (runs, key.strip_prefix("treadmill/*/")) {
+        (Some(runs), Some(rest)) if !KNOWN_TO_POOLS.contains(&key) => {
+            // A wildcard within a part of a key has a sign of its own.
+            let part = |run: &String| if run == "*" { run.clone() } else { run.replace('*', "$*") };
+            runs.iter().map(|run| format!("treadmill/{}/{rest}", part(run))).collect()
+        }
+        _ => vec![key.to_string()],
+    }
 }
 
 /// Returns the size limits of messages to learners and routers, by key; larger messages are dropped on arrival.
@@ -138,6 +173,8 @@ const PUBLIC: Keys = &[
 /// Copies of accepted fragments. No wildcard matches them, so every rule names them. Observers may read them: they reveal
 /// little more than episodes and statistics, and a slow link loses copies without delaying training.
 const COPIES: Keys = &["treadmill/*/@rollouts/*"];
+/// Keys of all runs that every pool may read: which runs there are, and what they want.
+const KNOWN_TO_POOLS: Keys = &["treadmill/*/learner", "treadmill/*/pool/demand", "treadmill/*/pool/room"];
 /// Tokens of the pool's actors. No wildcard matches them, either.
 const POOLED: Keys = &["treadmill/@pool/actors/*/*"];
 /// Everything.
@@ -202,5 +239,30 @@ fn grants(role: Role) -> Vec<Grant> {
         Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"]), learners].concat(),
         Role::Observer => watch,
         Role::Operator => [watch, query(&["treadmill/*/control"])].concat(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pool_is_admitted_to_the_runs_that_are_named() {
+        let pools = [AdmittedPool { pool: "lab".to_string(), runs: vec!["walk".to_string(), "seeds-*".to_string()] }];
+        let access = access(&pools);
+        let keys: Vec<&str> = access["rules"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|rule| rule["id"].as_str().unwrap().starts_with("pool-lab-"))
+            .flat_map(|rule| rule["key_exprs"].as_array().unwrap().iter().map(|key| key.as_str().unwrap()))
+            .collect();
+        for key in ["treadmill/walk/rollouts/*", "treadmill/seeds-$*/policy/latest", "treadmill/@pool/actors/*/*"] {
+            assert!(keys.contains(&key), "{key}");
+        }
+        let of_all: Vec<&&str> = keys.iter().filter(|key| key.starts_with("treadmill/*/")).collect();
+        assert!(of_all.iter().all(|key| KNOWN_TO_POOLS.contains(key)), "{of_all:?}");
+        let subject = access["subjects"].as_array().unwrap().last().unwrap();
+        assert_eq!(subject["cert_common_names"][0], "treadmill-actor-lab");
     }
 }

@@ -20,7 +20,7 @@ use crate::{
     error::{BusError, in_words},
     workarounds::{close, discovery, linger, open_files::check_open_files, redial_pause, threads},
 };
-use access_rules::Credentials;
+use access_rules::{AdmittedPool, Credentials};
 
 /// Largest message that is reassembled, in bytes; above every limit of our own formats.
 const MESSAGE_BYTES_MAX: usize = 32 << 20;
@@ -58,6 +58,8 @@ pub struct BusOptions {
     /// Whether large messages between processes of one machine use shared memory. Both ends must enable it. Messages that do
     /// not fit use the link.
     pub shared_memory: bool,
+    /// Pools of actors that a listening session admits to some runs only.
+    pub pools: Vec<AdmittedPool>,
     /// The user's Zenoh configuration; our settings override it.
     pub zenoh_config: Option<PathBuf>,
 }
@@ -113,7 +115,7 @@ impl Bus {
         insert(&mut settings, "transport/unicast/max_sessions", json!(sessions))?;
         insert(&mut settings, "mode", json!("router"))?;
         if options.credentials.is_some() {
-            insert(&mut settings, "access_control", access_rules::access())?;
+            insert(&mut settings, "access_control", access_rules::access(&options.pools))?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
         let rule = |flow: &str, control: &str| {

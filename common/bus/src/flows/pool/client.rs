@@ -23,7 +23,7 @@ use crate::{
 };
 
 /// Longest wait for a further answer.
-const SILENCE: Duration = Duration::from_millis(100);
+const SILENCE: Duration = Duration::from_millis(300);
 
 /// Declares the token of an actor in the pool, which lasts until it is dropped.
 ///
@@ -59,7 +59,7 @@ pub async fn pool_demands(bus: &Bus, timeout: Duration) -> Result<Vec<PoolDemand
     Ok(runs.into_values().collect())
 }
 
-/// Asks a run for a place. No answer counts as no.
+/// Asks a run for a place. `None` if no answer came, as from a run whose rules do not admit this actor.
 ///
 /// # Errors
 /// If the bus fails.
@@ -69,15 +69,18 @@ pub async fn ask_to_join(
     actor: &str,
     join: &PoolJoin,
     timeout: Duration,
-) -> Result<bool, BusError> {
+) -> Result<Option<bool>, BusError> {
     let replies = ask(bus, join_key(run, actor), join.to_bytes(), timeout, Priority::Data, "asking for a place")?;
     let decode = |bytes: bytes::Bytes| PoolAnswer::decode_checked(&bytes);
+    // Beside its successor, a learner that was overtaken may answer.
+    let mut admitted = None;
     while let Some(answer) = next_valid(&replies, "answer of the pool", decode).await {
+        admitted = Some(answer.admitted);
         if answer.admitted {
-            return Ok(true);
+            break;
         }
     }
-    Ok(false)
+    Ok(admitted)
 }
 
 /// Calls to an actor that works for a run.

@@ -36,6 +36,9 @@ impl PoolWatch {
                     return;
                 }
                 let Ok(demand) = PoolDemand::decode_checked(&sample.payload().to_bytes()) else { return };
+                if sample.key_expr().as_str() != demand_key(&demand.run) {
+                    return;
+                }
                 let (mut heard, now) = (heard.lock().unwrap_or_else(PoisonError::into_inner), Instant::now());
                 heard.retain(|_, (_, at)| now.duration_since(*at) < DEMAND_LASTS);
                 if heard.len() < RUNS_MAX || heard.contains_key(&demand.run) {
