@@ -29,6 +29,9 @@ const TICK: Duration = Duration::from_millis(100);
 /// Shortest time between two publications of a changed demand, and longest time between two of any.
 const PUBLISH_MIN: Duration = Duration::from_millis(200);
 const PUBLISH_MAX: Duration = Duration::from_secs(5);
+/// Time to the first count of the pool's actors, whose tokens may have been missed; and longest time between two.
+const COUNT_FIRST: Duration = Duration::from_millis(500);
+const COUNT_EVERY: Duration = Duration::from_secs(180);
 /// Time between two calls for actors, or to one that should leave: a call may get lost.
 const CALL_EVERY: Duration = Duration::from_secs(1);
 const _: () = assert!(PUBLISH_MAX.as_secs() * 3 < DEMAND_LASTS.as_secs());
@@ -81,6 +84,8 @@ impl Pool {
             published: None,
             called: Duration::ZERO,
             released: Duration::ZERO,
+            count_due: COUNT_FIRST,
+            count_pause: COUNT_FIRST,
         };
         let work = {
             let (wish, shown, closed) = (wish.clone(), shown.clone(), closed.clone());
@@ -125,6 +130,9 @@ struct Serving {
     published: Option<(PoolDemand, Duration)>,
     called: Duration,
     released: Duration,
+    /// When the actors of the pool are counted next, and the time to the count after that.
+    count_due: Duration,
+    count_pause: Duration,
 }
 
 impl Serving {
@@ -150,6 +158,13 @@ impl Serving {
 
     /// Reads who is there and what the run wants.
     fn look(&mut self, wish: &PoolWish, now: Duration) {
+        if now >= self.count_due {
+            self.count_pause = (3 * self.count_pause).min(COUNT_EVERY);
+            self.count_due = now + self.count_pause;
+            if let Err(error) = self.server.count_actors() {
+                tracing::debug!(%error, "the actors of the pool are not counted");
+            }
+        }
         let pool = self.server.actors();
         let in_run = self.alive.actors();
         let own = in_run.iter().filter(|name| !pool.contains_key(*name)).filter_map(|name| wish.envs.get(name));

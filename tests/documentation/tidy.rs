@@ -7,7 +7,7 @@ use std::{
 };
 
 /// Most words of a page.
-const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2080), ("CHANGELOG.md", 720)];
+const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2080), ("CHANGELOG.md", 730)];
 /// Most words of all pages together, generated ones included.
 const ALL_WORDS_MAX: usize = 41_000;
 /// Most columns of a table.

@@ -17,6 +17,8 @@ use crate::pool::{Deliveries, Seeker};
 const LEAVE_TIMEOUT: Duration = Duration::from_secs(1);
 /// Time for which the learner may be gone, as when its link is lost, before the actor looks for another run.
 const GONE_GRACE: Duration = Duration::from_millis(200);
+/// Longest wait for the first sign of the learner's life.
+const FIRST_NEWS: Duration = Duration::from_secs(3);
 /// Interval of looking for another run while the learner is gone.
 const SEEK_EVERY: Duration = Duration::from_secs(1);
 /// Longest time before the next answer to a call to leave.
@@ -28,8 +30,8 @@ const GIVE_UP: Duration = Duration::from_secs(10);
 pub(super) struct Moving {
     run: String,
     pool: Option<(Seeker, PoolCalls)>,
-    /// Whether its token is there. Before the first news of it, it may have gone already.
-    is_learner_there: bool,
+    /// Whether the learner's token is there. Before the first news of the learner, it may have gone already.
+    is_learner_there: Option<bool>,
     /// When the actor first looked for another run because the learner was gone.
     gone_since: Option<Instant>,
     /// Time before the next answer to a call to leave, if no other run admitted the actor: it grows.
@@ -48,12 +50,12 @@ impl Moving {
     pub(super) fn new(bus: &Bus, run: &str, actor: &str, seeker: Option<&Seeker>) -> Result<Self, BusError> {
         let mut seek_due = tokio::time::interval(SEEK_EVERY);
         seek_due.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        seek_due.reset();
+        seek_due.reset_after(FIRST_NEWS);
         let pool = seeker.map(|seeker| Ok((seeker.clone(), PoolCalls::open(bus, run, actor)?))).transpose()?;
         Ok(Self {
             run: run.to_string(),
             pool,
-            is_learner_there: false,
+            is_learner_there: None,
             gone_since: None,
             seek_pause: Duration::ZERO,
             sought: None,
@@ -78,12 +80,12 @@ impl Moving {
                     self.sought.is_none_or(|sought| sought.elapsed() >= self.seek_pause)
                 }
                 is_there = calls.learner() => {
-                    self.is_learner_there = is_there;
+                    self.is_learner_there = Some(is_there);
                     self.gone_since = None;
                     self.seek_due.reset_after(GONE_GRACE);
                     false
                 }
-                _ = self.seek_due.tick(), if !self.is_learner_there && self.seeks.is_empty() => {
+                _ = self.seek_due.tick(), if self.is_learner_there != Some(true) && self.seeks.is_empty() => {
                     let gone_since = *self.gone_since.get_or_insert_with(Instant::now);
                     if gone_since.elapsed() > GIVE_UP {
                         // Without a run, it is called by any that needs it.
@@ -110,6 +112,11 @@ impl Moving {
         }
     }
 
+    /// Notes a sign of the learner's life, for the case that the news of its token are lost.
+    pub(super) fn hear(&mut self) {
+        self.is_learner_there.get_or_insert(true);
+    }
+
     /// Returns whether more fragments may come.
     pub(super) fn simulates(&self) -> bool {
         self.until.is_none()
@@ -117,7 +124,7 @@ impl Moving {
 
     /// Begins to wait for the last receipts; those of a learner that is gone come later, if at all.
     pub(super) fn wait_for_receipts(&mut self) {
-        let patience = if self.is_learner_there { LEAVE_TIMEOUT } else { Duration::ZERO };
+        let patience = if self.is_learner_there == Some(false) { Duration::ZERO } else { LEAVE_TIMEOUT };
         self.until = Some(Instant::now() + patience);
     }
 

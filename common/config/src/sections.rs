@@ -18,7 +18,8 @@ section! {
         steps: u64 = 8_000_000, "1 to 1000000000000" => |v| (1..=1_000_000_000_000).contains(v);
         /// Run one actor in lock-step with the learner: the same seed then gives the same weights, bit for bit.
         deterministic: bool = false, "true or false" => |_| true;
-        /// Weight of the run where runs share a pool of actors; 0 takes none of them, as do deterministic runs and external tasks.
+        /// Weight of the run where runs share a pool of actors; 0 takes none of them. Deterministic runs and external tasks
+        /// take none, either.
         share: f64 = 1.0, "0, or 0.001 to 1000" => |v| is_share(*v);
         /// Smallest number of environments that is of use to the run: a pool that has fewer for it gives none.
         envs_min: u32 = 0, "0 to 1000000" => |v| *v <= RUN_ENVS_MAX;

@@ -36,7 +36,7 @@ pub struct SweptCurve {
 pub struct GoalCost {
     /// Goal in words.
     pub goal: String,
-    /// For each trial that reached something, the environment steps of all trials up to it, in millions, and what it reached.
+    /// For each trial that reached something: environment steps of all trials up to it, in millions, and what it reached.
     pub trials: Vec<(f64, f64)>,
     /// The same for the best so far.
     pub best: Vec<(f64, f64)>,

@@ -15,10 +15,7 @@ mod search;
 mod space;
 mod trials;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::PathBuf};
 
 use anyhow::Context;
 use clap::{Arg, ArgAction, Args, parser::ValueSource};
@@ -26,7 +23,7 @@ use treadmill_bus::Role;
 use treadmill_config::{Config, ConfigSource, given_value};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_ppo::BatchSize;
-use treadmill_runtime::{machine, seeds, shutdown::Shutdown, words::quoted};
+use treadmill_runtime::{machine, shutdown::Shutdown, words::quoted};
 
 use self::{
     goal::Goal,
@@ -50,8 +47,6 @@ use crate::{
 
 /// Seeds without a search file: two runs can agree by chance.
 const SEEDS: usize = 3;
-/// Most characters of a sweep's name in those of its runs.
-const SWEEP_CHARS_MAX: usize = 40;
 /// Most wrong settings that a message names.
 const WRONG_MAX: usize = 5;
 /// Flags that are the sweep's own, or mean something else here than for a trial.
@@ -291,7 +286,7 @@ fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> any
         parallel: args.parallel.map_or_else(trials_at_once, |parallel| parallel as usize),
         deterministic: config.run.deterministic,
         connect: args.connect.clone(),
-        bus_name: bus_name(args.new.run_dir.as_deref()),
+        bus_name: plan::bus_name(args.new.run_dir.as_deref()),
         goal: String::new(),
         seed: config.run.seed,
         steps: config.run.steps,
@@ -313,14 +308,6 @@ fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> any
     plan.propose(&search);
     check_trials(&plan, &source, &changes)?;
     Ok(plan)
-}
-
-/// Returns the name of a new sweep on a bus: that of its folder, and a number of its own.
-fn bus_name(root: Option<&Path>) -> String {
-    let name = root.and_then(Path::file_name).unwrap_or("sweep".as_ref()).to_string_lossy().to_lowercase();
-    let allowed = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '-' };
-    let name: String = name.chars().map(allowed).take(SWEEP_CHARS_MAX).collect();
-    format!("{name}-{:08x}", seeds::unique() as u32)
 }
 
 /// Returns how many trials this machine trains at once: with one core each they are together faster than one after the

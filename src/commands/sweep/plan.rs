@@ -7,13 +7,15 @@ use std::{
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
-use treadmill_runtime::{atomic_file, words::quoted};
+use treadmill_runtime::{atomic_file, seeds, words::quoted};
 
 use super::search::{Setting, SweepSearch};
 use crate::launch::exit_code::Usage;
 
 const FILE: &str = "sweep.json";
 const LOCK: &str = "sweep.lock";
+/// Most characters of a sweep's name in those of its runs.
+const SWEEP_CHARS_MAX: usize = 40;
 
 /// Trial: an ordinary run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -204,6 +206,14 @@ impl SweepFolder {
         atomic_file::write(&path, text.as_bytes())
             .with_context(|| format!("`{}` cannot be written; {remedy}", path.display()))
     }
+}
+
+/// Returns the name of a new sweep on a bus: that of its folder, and a number of its own.
+pub(crate) fn bus_name(root: Option<&Path>) -> String {
+    let name = root.and_then(Path::file_name).unwrap_or("sweep".as_ref()).to_string_lossy().to_lowercase();
+    let allowed = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '-' };
+    let name: String = name.chars().map(allowed).take(SWEEP_CHARS_MAX).collect();
+    format!("{name}-{:08x}", seeds::unique() as u32)
 }
 
 /// Returns the folder of a trial in that of a sweep.

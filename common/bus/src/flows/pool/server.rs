@@ -1,7 +1,7 @@
 //! A learner's side of the pool.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     sync::{
         Arc, Mutex, PoisonError,
         mpsc::{Receiver, SyncSender, sync_channel},
@@ -17,9 +17,10 @@ use treadmill_proto::{
 use zenoh::{
     Wait,
     bytes::ZBytes,
+    handlers::{FifoChannel, FifoChannelHandler},
     pubsub::Subscriber,
     qos::Priority,
-    query::Query,
+    query::{Query, Reply},
     sample::{Sample, SampleKind},
 };
 
@@ -36,6 +37,8 @@ use crate::{
 
 /// Events of a learner that may wait. Further ones are dropped: demands are repeated, and actors ask again.
 const QUEUE: usize = 4096;
+/// Longest wait for the tokens of the pool.
+const COUNT_TIMEOUT: Duration = Duration::from_secs(5);
 /// Most actors of a pool that are tracked; further ones find no place.
 const ACTORS_MAX: usize = 4096;
 
@@ -82,12 +85,38 @@ impl PendingDemand {
     }
 }
 
+/// Tokens of the pool, as they are being asked for.
+struct Count {
+    replies: FifoChannelHandler<Reply>,
+    /// Actors that were known when it began.
+    before: BTreeSet<String>,
+    found: BTreeMap<String, u32>,
+}
+
+impl Count {
+    /// Takes the answers that have come. Returns whether these are all.
+    fn is_complete(&mut self) -> bool {
+        loop {
+            match self.replies.try_recv() {
+                Ok(Some(reply)) => {
+                    let token = reply.result().ok().map(|sample| sample.key_expr().to_string());
+                    let read = token.as_deref().and_then(read_token);
+                    self.found.extend(read.map(|(name, envs)| (name.to_string(), envs)));
+                }
+                Ok(None) => return false,
+                Err(_) => return true,
+            }
+        }
+    }
+}
+
 /// A learner's side of the pool.
 pub struct PoolServer {
     bus: Bus,
     run: String,
     events: Receiver<PoolEvent>,
     actors: Arc<Mutex<BTreeMap<String, u32>>>,
+    count: Option<Count>,
     publish_demand: Box<dyn Fn(Vec<u8>) + Send>,
     publish_room: Box<dyn Fn(Vec<u8>) + Send>,
     _subscribers: [Subscriber<()>; 3],
@@ -144,6 +173,7 @@ impl PoolServer {
             run: run.to_string(),
             events,
             actors,
+            count: None,
             publish_demand: Box::new(publisher(bus, demand_key(run))?),
             publish_room: Box::new(publisher(bus, room_key(run))?),
             _subscribers: [demands, tokens, learners],
@@ -156,8 +186,39 @@ impl PoolServer {
     }
 
     /// Returns the environments of every actor of the pool.
-    pub fn actors(&self) -> BTreeMap<String, u32> {
-        self.actors.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    pub fn actors(&mut self) -> BTreeMap<String, u32> {
+        let mut actors = self.actors.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = &mut self.count
+            && count.is_complete()
+        {
+            // Those that came or went meanwhile were announced.
+            actors.retain(|name, _| count.found.contains_key(name) || !count.before.contains(name));
+            let room = ACTORS_MAX.saturating_sub(actors.len());
+            let missed = count.found.iter().filter(|(name, _)| !count.before.contains(*name)).take(room);
+            let missed: Vec<_> = missed.map(|(name, envs)| (name.clone(), *envs)).collect();
+            actors.extend(missed);
+            self.count = None;
+        }
+        actors.clone()
+    }
+
+    /// Asks for all tokens of the pool: a session that joins other routers may miss some that were there before.
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub fn count_actors(&mut self) -> Result<(), BusError> {
+        let before = self.actors.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
+        let replies = self
+            .bus
+            .session
+            .liveliness()
+            .get(actor_key("*", "*"))
+            .timeout(COUNT_TIMEOUT)
+            .with(FifoChannel::new(ACTORS_MAX))
+            .wait()
+            .map_err(BusError::flow("counting the actors of the pool"))?;
+        self.count = Some(Count { replies, before, found: BTreeMap::new() });
+        Ok(())
     }
 
     /// Publishes the demand to the other learners.
