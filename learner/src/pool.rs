@@ -32,6 +32,9 @@ const PUBLISH_MAX: Duration = Duration::from_secs(5);
 /// Time to the first count of the pool's actors, whose tokens may have been missed; and longest time between two.
 const COUNT_FIRST: Duration = Duration::from_millis(500);
 const COUNT_EVERY: Duration = Duration::from_secs(180);
+/// Time for which an actor without a token counts, and most such actors.
+const GUEST: Duration = Duration::from_secs(60);
+const GUESTS_MAX: usize = 1024;
 /// Time between two calls for actors, or to one that should leave: a call may get lost.
 const CALL_EVERY: Duration = Duration::from_secs(1);
 const _: () = assert!(PUBLISH_MAX.as_secs() * 3 < DEMAND_LASTS.as_secs());
@@ -84,6 +87,7 @@ impl Pool {
             published: None,
             called: Duration::ZERO,
             released: Duration::ZERO,
+            guests: BTreeMap::new(),
             count_due: COUNT_FIRST,
             count_pause: COUNT_FIRST,
         };
@@ -130,6 +134,9 @@ struct Serving {
     published: Option<(PoolDemand, Duration)>,
     called: Duration,
     released: Duration,
+    /// Environments of actors that asked for a place and whose token is not here, and when they asked: the bus may lose
+    /// tokens on the way between two routers.
+    guests: BTreeMap<String, (u32, Duration)>,
     /// When the actors of the pool are counted next, and the time to the count after that.
     count_due: Duration,
     count_pause: Duration,
@@ -165,7 +172,9 @@ impl Serving {
                 tracing::debug!(%error, "the actors of the pool are not counted");
             }
         }
-        let pool = self.server.actors();
+        let mut pool = self.server.actors();
+        self.guests.retain(|name, (_, asked)| !pool.contains_key(name) && now < *asked + GUEST);
+        pool.extend(self.guests.iter().map(|(name, (envs, _))| (name.clone(), *envs)));
         let in_run = self.alive.actors();
         let own = in_run.iter().filter(|name| !pool.contains_key(*name)).filter_map(|name| wish.envs.get(name));
         let own = own.copied().fold(0, u32::saturating_add).min(RUN_ENVS_MAX);
@@ -183,6 +192,10 @@ impl Serving {
             PoolEvent::Demand(demand) => self.share.hear(demand, now),
             PoolEvent::Gone(run) => self.share.forget(&run),
             PoolEvent::Join(pending) => {
+                if !self.share.knows(&pending.actor) && self.guests.len() < GUESTS_MAX {
+                    self.guests.insert(pending.actor.clone(), (pending.join.envs, now));
+                    self.share.add_actor(&pending.actor, pending.join.envs);
+                }
                 let is_admitted = self.share.admit(&pending.actor, pending.join.stranded, now);
                 pending.answer(&self.share.demand().run.clone(), is_admitted);
             }

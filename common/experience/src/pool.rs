@@ -195,6 +195,17 @@ impl PoolShare {
         self.count();
     }
 
+    /// Returns whether an actor is known.
+    pub fn knows(&self, actor: &str) -> bool {
+        self.actors.contains_key(actor)
+    }
+
+    /// Adds an actor, which counts until [`Self::set_actors`] leaves it out.
+    pub fn add_actor(&mut self, actor: &str, envs: u32) {
+        self.actors.insert(actor.to_string(), envs);
+        self.count();
+    }
+
     /// Answers an actor that would join; an admitted one has its place for [`GRANT`]. One that is stranded has no run, and
     /// those with room refused it: remainders of the rounding, or a run that it cannot join.
     pub fn admit(&mut self, actor: &str, is_stranded: bool, now: Duration) -> bool {
