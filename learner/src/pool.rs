@@ -27,10 +27,10 @@ const EVENTS_MAX: usize = 1024;
 /// Longest wait for an event.
 const TICK: Duration = Duration::from_millis(100);
 /// Shortest time between two publications of a changed demand, and longest time between two of any.
-const PUBLISH_MIN: Duration = Duration::from_millis(200);
+const PUBLISH_MIN: Duration = Duration::from_millis(500);
 const PUBLISH_MAX: Duration = Duration::from_secs(5);
-/// Time to the first count of the pool's actors, whose tokens may have been missed; and longest time between two.
-const COUNT_FIRST: Duration = Duration::from_millis(500);
+/// Time to the first count of the pool's actors, whose tokens may have been missed; and between two.
+const COUNT_FIRST: Duration = Duration::from_secs(2);
 const COUNT_EVERY: Duration = Duration::from_secs(180);
 /// Time for which an actor without a token counts, and most such actors.
 const GUEST: Duration = Duration::from_secs(60);
@@ -89,7 +89,6 @@ impl Pool {
             released: Duration::ZERO,
             guests: BTreeMap::new(),
             count_due: COUNT_FIRST,
-            count_pause: COUNT_FIRST,
         };
         let work = {
             let (wish, shown, closed) = (wish.clone(), shown.clone(), closed.clone());
@@ -137,9 +136,8 @@ struct Serving {
     /// Environments of actors that asked for a place and whose token is not here, and when they asked: the bus may lose
     /// tokens on the way between two routers.
     guests: BTreeMap<String, (u32, Duration)>,
-    /// When the actors of the pool are counted next, and the time to the count after that.
+    /// When the actors of the pool are counted next.
     count_due: Duration,
-    count_pause: Duration,
 }
 
 impl Serving {
@@ -166,8 +164,7 @@ impl Serving {
     /// Reads who is there and what the run wants.
     fn look(&mut self, wish: &PoolWish, now: Duration) {
         if now >= self.count_due {
-            self.count_pause = (3 * self.count_pause).min(COUNT_EVERY);
-            self.count_due = now + self.count_pause;
+            self.count_due = now + COUNT_EVERY;
             if let Err(error) = self.server.count_actors() {
                 tracing::debug!(%error, "the actors of the pool are not counted");
             }

@@ -12,10 +12,10 @@ use treadmill_runtime::seeds::checksum;
 
 /// Time after which an admitted actor that did not come has lost its place.
 pub const GRANT: Duration = Duration::from_secs(15);
-/// Time in a run after which an actor moves for any gain; before, for a large one only.
+/// Time in a run after which an actor moves for any gain; before, only if a run is far from its target.
 const SETTLED: Duration = Duration::from_secs(30);
-/// Gain that is large: the distance of both runs from their targets that a move removes, as a share of the targets.
-const LARGE_GAIN: f64 = 0.1;
+/// Distance of a run from its target that is large, as a share of the target.
+const LARGE: f64 = 0.1;
 /// Most runs and actors that are kept.
 const RUNS_MAX: usize = 1024;
 /// Steps of the bisection, which then is exact to the last bits of a share.
@@ -257,7 +257,7 @@ impl PoolShare {
             let Some(lack) = lacking.iter_mut().find(admits) else { continue };
             let surplus = has - target;
             let gain = surplus.abs() - (surplus - envs).abs() + lack.envs - (lack.envs - envs).abs();
-            let is_large = gain > LARGE_GAIN * (target + lack.target);
+            let is_large = surplus > LARGE * target || lack.envs > LARGE * lack.target;
             let may_move = takes_none || is_large || now >= member.since + SETTLED;
             if surplus > 0.0 && gain > 0.0 && may_move {
                 released.push(name.clone());
