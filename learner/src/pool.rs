@@ -6,8 +6,9 @@ use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, Ordering},
+        mpsc::{self, Receiver},
     },
-    thread::{self, JoinHandle},
+    thread,
     time::{Duration, Instant},
 };
 
@@ -24,6 +25,8 @@ use treadmill_proto::{
 
 /// Most events that are answered with one view.
 const EVENTS_MAX: usize = 1024;
+/// Longest wait for the thread when the run ends.
+const END_TIMEOUT: Duration = Duration::from_secs(1);
 /// Longest wait for an event.
 const TICK: Duration = Duration::from_millis(100);
 /// Shortest time between two publications of a changed demand, and longest time between two of any.
@@ -67,7 +70,8 @@ pub struct Pool {
     wish: Arc<Mutex<PoolWish>>,
     demand: Arc<Mutex<PoolDemand>>,
     closed: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    /// Disconnected once the thread has ended.
+    ended: Receiver<()>,
 }
 
 impl Pool {
@@ -90,14 +94,19 @@ impl Pool {
             guests: BTreeMap::new(),
             count_due: COUNT_FIRST,
         };
+        let (running, ended) = mpsc::channel();
         let work = {
             let (wish, shown, closed) = (wish.clone(), shown.clone(), closed.clone());
-            move || serving.run(&wish, &shown, &closed)
+            move || {
+                serving.run(&wish, &shown, &closed);
+                drop(running);
+            }
         };
-        let thread = thread::Builder::new().name("pool".to_string()).spawn(work).map_err(|why: io::Error| {
-            BusError::Flow { what: "starting the thread of the pool".into(), why: why.to_string() }
+        thread::Builder::new().name("pool".to_string()).spawn(work).map_err(|why: io::Error| BusError::Flow {
+            what: "starting the thread of the pool".into(),
+            why: why.to_string(),
         })?;
-        Ok(Self { wish, demand: shown, closed, thread: Some(thread) })
+        Ok(Self { wish, demand: shown, closed, ended })
     }
 
     /// Returns what the run wants of the pool and has of it.
@@ -114,8 +123,8 @@ impl Pool {
 impl Drop for Pool {
     fn drop(&mut self) {
         self.closed.store(true, Ordering::Relaxed);
-        // A panic of the thread was reported, and a run must end all the same.
-        drop(self.thread.take().map(JoinHandle::join));
+        // A link to a peer that hangs may hold the thread, and a run must end all the same.
+        let _ = self.ended.recv_timeout(END_TIMEOUT);
     }
 }
 
