@@ -31,12 +31,20 @@ pub fn restart(values: &[(&str, Vec<String>)], pause: Duration) -> io::Error {
 
 /// Waits for the pause of a start that [`restart`] made.
 pub fn pause() {
-    let given = env::var(VARIABLE).unwrap_or_default();
-    if let Some((process, pause_ms)) = given.split_once(' ')
-        && process == process::id().to_string()
-    {
-        thread::sleep(Duration::from_millis(pause_ms.parse().unwrap_or(0)));
+    if let Some(pause_ms) = pause_ms() {
+        thread::sleep(Duration::from_millis(pause_ms));
     }
+}
+
+/// Returns whether [`restart`] made this start.
+pub fn is_restarted() -> bool {
+    pause_ms().is_some()
+}
+
+fn pause_ms() -> Option<u64> {
+    let given = env::var(VARIABLE).unwrap_or_default();
+    let (process, pause_ms) = given.split_once(' ')?;
+    (process == process::id().to_string()).then(|| pause_ms.parse().unwrap_or(0))
 }
 
 fn replaced(arguments: impl Iterator<Item = OsString>, values: &[(&str, Vec<String>)]) -> Vec<OsString> {

@@ -10,7 +10,7 @@ use clap::Args;
 use treadmill_runtime::machine;
 
 use super::{Served, doors::Door, hub::Hub};
-use crate::launch::exit_code::Usage;
+use crate::launch::{exit_code::Usage, restart};
 
 /// Port unless another program has it.
 const PORT: u16 = 7448;
@@ -86,6 +86,11 @@ impl ServeArgs {
                 .context("the page has no port");
         };
         let why = |why| Usage(format!("--page-listen {address}: cannot listen: {why}; choose another port, or 0"));
-        Ok(TcpListener::bind(address).map_err(why)?)
+        let bound = TcpListener::bind(address).or_else(|why| {
+            // Another process may have taken the port in the pause of a restart, which must not end the run.
+            let is_free_to_choose = restart::is_restarted() && address.ip().is_loopback();
+            if is_free_to_choose { TcpListener::bind(SocketAddr::new(address.ip(), 0)) } else { Err(why) }
+        });
+        Ok(bound.map_err(why)?)
     }
 }
