@@ -1,7 +1,7 @@
 //! The run's part in the pool of actors that belong to no run, on a thread of its own.
 
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::BTreeMap,
     io,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -162,7 +162,7 @@ impl Serving {
                 self.handle(event, now);
             }
             // Once for all demands that were heard.
-            self.share.set(|_| {});
+            self.share.count();
             lock(shown).clone_from(self.share.demand());
             self.publish(now);
             self.call(now);
@@ -241,7 +241,6 @@ impl Serving {
     fn end(&mut self) {
         self.share.set(|demand| demand.open = false);
         self.server.publish(self.share.demand());
-        let members: BTreeSet<&str> = self.share.members().collect();
-        members.into_iter().for_each(|actor| self.server.release(actor));
+        self.share.members().for_each(|actor| self.server.release(actor));
     }
 }

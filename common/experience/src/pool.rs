@@ -115,12 +115,6 @@ struct Lack {
     order: u64,
 }
 
-/// Actor of the pool that a run has.
-#[derive(Clone, Copy, Debug)]
-struct Member {
-    since: Duration,
-}
-
 /// Another run.
 #[derive(Clone, Debug)]
 struct Other {
@@ -138,7 +132,8 @@ pub struct PoolShare {
     others: BTreeMap<String, Other>,
     /// Environments of every actor of the pool.
     actors: BTreeMap<String, u32>,
-    members: BTreeMap<String, Member>,
+    /// Actors of the pool that the run has, and since when.
+    members: BTreeMap<String, Duration>,
     /// Admitted actors that have not come yet, and until when they may.
     granted: BTreeMap<String, Duration>,
 }
@@ -163,8 +158,8 @@ impl PoolShare {
         self.count();
     }
 
-    /// Records the demand of another run; [`Self::set_actors`] takes it into account. Actors of another physics than this
-    /// run's are none of its pool.
+    /// Records the demand of another run, for the next [`Self::count`]. A run of another physics is left out, because its
+    /// actors cannot join this one.
     pub fn hear(&mut self, demand: PoolDemand, now: Duration) {
         let known = self.others.get(&demand.run);
         let is_older = known.is_some_and(|known| known.demand.epoch > demand.epoch);
@@ -176,7 +171,7 @@ impl PoolShare {
         }
     }
 
-    /// Forgets a run whose learner is gone; [`Self::set_actors`] takes it into account.
+    /// Forgets a run whose learner is gone, for the next [`Self::count`].
     pub fn forget(&mut self, run: &str) {
         self.others.remove(run);
     }
@@ -188,7 +183,7 @@ impl PoolShare {
         }
         self.members.retain(|name, _| in_run.contains(name) && pool.contains_key(name));
         for name in in_run.iter().filter(|name| pool.contains_key(*name)) {
-            self.members.entry(name.clone()).or_insert(Member { since: now });
+            self.members.entry(name.clone()).or_insert(now);
         }
         self.granted.retain(|name, until| *until > now && !in_run.contains(name) && pool.contains_key(name));
         self.others.retain(|_, other| now < other.heard + DEMAND_LASTS);
@@ -242,14 +237,14 @@ impl PoolShare {
                 order: checksum(&[self.demand.run.as_bytes(), demand.run.as_bytes()]),
             })
             .collect();
-        let mut members: Vec<(&String, &Member)> = self.members.iter().collect();
-        members.sort_by_key(|(name, member)| {
-            let is_new = now < member.since + SETTLED;
+        let mut members: Vec<(&String, &Duration)> = self.members.iter().collect();
+        members.sort_by_key(|(name, since)| {
+            let is_new = now < **since + SETTLED;
             (is_new, checksum(&[self.demand.run.as_bytes(), name.as_bytes()]))
         });
         let takes_none = self.demand.envs_wanted() == 0;
         let mut released = Vec::new();
-        for (name, member) in members {
+        for (name, since) in members {
             let Some(envs) = self.actors.get(name).map(|envs| f64::from(*envs)) else { continue };
             lacking.sort_by_key(|lack| Reverse((lack.envs as u64, lack.order)));
             // The first one that would admit it.
@@ -258,7 +253,7 @@ impl PoolShare {
             let surplus = has - target;
             let gain = surplus.abs() - (surplus - envs).abs() + lack.envs - (lack.envs - envs).abs();
             let is_large = surplus > LARGE * target || lack.envs > LARGE * lack.target;
-            let may_move = takes_none || is_large || now >= member.since + SETTLED;
+            let may_move = takes_none || is_large || now >= *since + SETTLED;
             if surplus > 0.0 && gain > 0.0 && may_move {
                 released.push(name.clone());
                 has -= envs;
@@ -282,7 +277,7 @@ impl PoolShare {
     }
 
     /// Counts what the run has, and what it should have.
-    fn count(&mut self) {
+    pub fn count(&mut self) {
         let names = || self.members.keys().chain(self.granted.keys());
         self.demand.envs = names().filter_map(|name| self.actors.get(name)).sum();
         self.demand.actors = self.members.len() as u32;

@@ -73,7 +73,7 @@ impl Model {
         let demands: Vec<PoolDemand> = self.shares.iter().map(|share| share.demand().clone()).collect();
         for share in &mut self.shares {
             demands.iter().for_each(|demand| share.hear(demand.clone(), self.now));
-            share.set(|_| {});
+            share.count();
         }
     }
 
