@@ -41,6 +41,8 @@ from pathlib import Path
 flags = dict(word.split("=", 1) for word in sys.argv[2:] if "=" in word)
 keys = dict(word[6:].split("=", 1) for word in sys.argv[2:] if word.startswith("--set="))
 folder = Path(flags.get("--run-dir", "."))
+if sys.argv[2] == "--draw":
+    sys.exit("error: nothing to draw" if "drawless" in os.environ else None)
 if sys.argv[1] == "sweep":
     text = Path(sys.argv[2]).read_text()
     if "gama" in text:
@@ -280,6 +282,10 @@ class RunTest(SweepCase):
         self.assertAlmostEqual(first["mean"], float(best["ppo.gamma"]) + 5.5)
         self.assertAlmostEqual(first["deviation"], 0.5**0.5)
         self.assertIn("Importance of each key", out)
+        self.assertIn(f"{self.root}/sweep.png", out)
+        drawn = json.loads((self.root / "trials.json").read_text())["trials"]
+        self.assertEqual([(row["seed"], row["setting"], row["exit"]) for row in drawn], [(5 + n % 2, n // 2 + 1, 0) for n in range(6)])
+        self.assertEqual(dict(drawn[2]["keys"])["ppo.gamma"], f"{float(rows[2]['ppo.gamma']):.6g}")
         command = (self.root / "trial-2.log").read_text().splitlines()[0]
         for word in ("train", "--preset walk", "--resume-or-start", "--seed=6", "--no-progress", "--json", "--actors="):
             self.assertIn(word, command)
@@ -308,11 +314,12 @@ class RunTest(SweepCase):
 
     def test_a_trial_that_fails_or_misses_the_goal_is_a_result(self):
         self.write(trials=3, goal="steps until rollout/ep_rew_mean >= 1.3")
-        code, out, err = self.call(*self.words("--json"), FAILS="trial-2")
+        code, out, err = self.call(*self.words("--json"), FAILS="trial-2", drawless="1")
         self.assertEqual(code, 0, err)
         rows = self.rows()
         self.assertEqual((rows[1]["exit"], rows[1]["state"], rows[1]["goal"]), ("3", "failed", ""))
         self.assertIn("trial-2: failed with exit code 3, see trial-2.log", out)
+        self.assertIn("the picture is missing: nothing to draw", out)
         self.assertEqual((rows[0]["state"], json.loads(out.splitlines()[-1])["failed"]), ("complete", 1))
         self.assertEqual(int(rows[0]["goal"]) % 30, 0)
         self.root = self.folder / "far"

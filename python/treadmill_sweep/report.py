@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import statistics
+import subprocess
 import warnings
 
 from optuna.importance import get_param_importances
@@ -42,6 +43,21 @@ def ended(sweep, trial):
     os.replace(f"{path}.new", path)
 
 
+def draw(sweep):
+    """Lets the binary draw `sweep.png`."""
+    drawn, seeds = [], sweep.plan["seeds"]
+    for run in range(len(sweep.trials()) * seeds):
+        trial = sweep.trials()[run // seeds]
+        keys = [[key, shown(value)] for key, value in trial.params.items()]
+        code = runs(trial).get(f"trial-{run + 1}", {}).get("exit")
+        setting = {"setting": trial.number + 1, "keys": keys, "parent": None}
+        drawn.append({"seed": sweep.plan["seed"] + run % seeds, "exit": code} | setting)
+    path = sweep.root / "trials.json"
+    path.write_text(json.dumps(sweep.plan | {"trials": drawn}))
+    done = subprocess.run([sweep.plan["treadmill"], "sweep", "--draw", path], capture_output=True, text=True)
+    return done.stderr.removeprefix("error: ").strip()
+
+
 def end(sweep, as_json):
     """Prints the trials, the best first, and the importance of each key."""
     states = [trial.user_attrs.get("state") for trial in sweep.trials()]
@@ -61,7 +77,8 @@ def end(sweep, as_json):
         with warnings.catch_warnings(action="ignore"):
             importance = get_param_importances(sweep.study)
         print("".join(f"  {share:>6.1%}  {key}\n" for key, share in importance.items()))
-    print(f"Written: {sweep.root}/sweep.csv")
+    why = draw(sweep)
+    print(f"Written: {sweep.root}/sweep.csv" + (f"; the picture is missing: {why}" if why else f", {sweep.root}/sweep.png"))
     found = {"sweep": str(sweep.root), "goal": sweep.goal.text, "trials": len(states)}
     found |= {word: states.count(word) for word in WORDS}
     if as_json:

@@ -26,6 +26,8 @@ use crate::{
 
 /// Certificates are valid from this long before they were made, because clocks differ.
 const LEEWAY: Duration = Duration::days(1);
+/// Folder of the pools' certificates, below that of the roles'.
+const POOLS: &str = "pools";
 /// Hosts of new certificates by default.
 const LOCAL_HOSTS: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 
@@ -48,7 +50,7 @@ pub struct CertsArgs {
     /// learners with `--admit POOL=RUNS` know it.
     #[arg(long, value_name = "POOL", value_parser = pool_name)]
     pool: Vec<String>,
-    /// Also write a folder per role below this one, with only the three files that the role needs.
+    /// Also write a folder per role and pool below this one, with only the three files that it needs.
     #[arg(long, value_name = "DIR")]
     bundles: Option<PathBuf>,
 }
@@ -75,7 +77,10 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
         for role in Role::ALL {
             write_bundle(folder, role, &bundles.join(role.name()))?;
         }
-        say(&format!("wrote a folder for each role below {}", bundles.display()));
+        for pool in pools(folder) {
+            write_bundle(&folder.join(POOLS).join(&pool), Role::Actor, &bundles.join(POOLS).join(&pool))?;
+        }
+        say(&format!("wrote a folder for each role and pool below {}", bundles.display()));
     }
     say("give each machine ca.crt and the two files of its role; keep ca.key where only you can read it");
     Ok(())
@@ -105,11 +110,9 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<String>> {
         write(&certificate, &text, 0o644)?;
         made.push(role.name().to_string());
     }
-    let pools = folder.join("pools");
-    let old = fs::read_dir(&pools).into_iter().flatten().flatten().filter(|_| args.renew);
-    let old = old.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| pool_name(name).is_ok());
+    let old = pools(folder).filter(|_| args.renew);
     for pool in args.pool.iter().cloned().chain(old).collect::<BTreeSet<_>>() {
-        let own = pools.join(&pool);
+        let own = folder.join(POOLS).join(&pool);
         let [certificate, key] = Credentials { folder: own.clone(), role: Role::Actor }.files();
         if certificate.exists() && key.exists() && !args.renew {
             continue;
@@ -125,6 +128,12 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<String>> {
         made.push(format!("the pool {pool}"));
     }
     Ok(made)
+}
+
+/// Returns the names of the pools that have a folder.
+fn pools(folder: &Path) -> impl Iterator<Item = String> {
+    let entries = fs::read_dir(folder.join(POOLS)).into_iter().flatten().flatten();
+    entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| pool_name(name).is_ok())
 }
 
 fn pool_name(given: &str) -> Result<String, String> {

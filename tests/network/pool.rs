@@ -204,7 +204,7 @@ fn a_certificate_of_a_pool_admits_to_the_runs_that_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let [routing] = &free_endpoints("tls");
-    certs(at, &["certs", "--host", "127.0.0.1", "--pool", "lab", "--pool", "other"]);
+    certs(at, &["certs", "--host", "127.0.0.1", "--pool", "lab", "--pool", "other", "--bundles", "machines"]);
     let _router = start(
         at,
         &[
@@ -237,7 +237,7 @@ fn a_certificate_of_a_pool_admits_to_the_runs_that_are_named() {
     };
     await_that("both learners", || (statuses().len() == 2).then_some(()));
     let actor = |pool: &str| {
-        let tls = format!("certs/pools/{pool}");
+        let tls = format!("machines/pools/{pool}");
         let mut command = treadmill(at);
         command.args(["actor", "--pool", "--envs", "8", "--name", pool, "--connect", routing, "--tls", &tls]);
         Running::start(command)

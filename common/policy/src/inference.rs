@@ -17,6 +17,8 @@ pub struct Policy {
     actor: Mlp,
     critic: Mlp,
     parameters: Vec<f32>,
+    /// Parameters of actor and critic as their forward passes read them.
+    prepared: [Vec<f32>; 2],
     log_std: Vec<f32>,
     /// Threads that share many rows on a CPU.
     pool: Option<Arc<ThreadPool>>,
@@ -41,7 +43,9 @@ impl Policy {
         }
         let (actor, critic, log_std) =
             (networks.actor(), networks.critic(), networks.log_std(&parameters).into_owned());
-        Ok(Self { networks, actor, critic, parameters, log_std, pool: None, on_gpu: None })
+        let mut prepared = [const { Vec::new() }; 2];
+        [&actor, &critic].into_iter().zip(&mut prepared).for_each(|(mlp, prepared)| mlp.prepare(&parameters, prepared));
+        Ok(Self { networks, actor, critic, parameters, prepared, log_std, pool: None, on_gpu: None })
     }
 
     /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
@@ -78,7 +82,7 @@ impl Policy {
     /// # Panics
     /// If a slice does not hold `rows` rows.
     pub fn means(&self, observations: &[f32], rows: usize, means: &mut [f32]) -> Result<()> {
-        self.apply(&self.actor, observations, rows, means)
+        self.apply(&self.actor, &self.prepared[0], observations, rows, means)
     }
 
     /// Returns the critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
@@ -90,16 +94,23 @@ impl Policy {
     /// If `observations` does not hold `rows` rows.
     pub fn values(&self, observations: &[f32], rows: usize) -> Result<Vec<f32>> {
         let mut values = vec![0.0; rows];
-        self.apply(&self.critic, observations, rows, &mut values)?;
+        self.apply(&self.critic, &self.prepared[1], observations, rows, &mut values)?;
         Ok(values)
     }
 
-    fn apply(&self, network: &Mlp, observations: &[f32], rows: usize, output: &mut [f32]) -> Result<()> {
+    fn apply(
+        &self,
+        network: &Mlp,
+        prepared: &[f32],
+        observations: &[f32],
+        rows: usize,
+        output: &mut [f32],
+    ) -> Result<()> {
         let (columns, width) = (self.shape().observation, network.output());
         assert_eq!(observations.len(), rows * columns, "observations do not hold {rows} rows of {columns}");
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
         let Some(parameters) = &self.on_gpu else {
-            network.evaluate(&self.parameters, observations, columns, output, self.pool.as_deref());
+            network.evaluate(prepared, observations, columns, output, self.pool.as_deref());
             return Ok(());
         };
         let is_actor = network.range().start == 0;

@@ -9,6 +9,7 @@
 //! - `init`: orthogonal initialisation.
 //! - `gaussian`: log-probability, sampling and entropy of actions.
 //! - `elementwise`: vectorised loops for biases and ELU.
+//! - `matrix`: products of matrices on slices.
 //! - `mirror`: [`PolicyMirror`] of observations and actions, even and odd parts.
 //! - `networks`: [`Networks`], dense or equivariant to a mirror, whose parameters are learnt.
 //! - `mlp`: [`Mlp`], forward and backward pass of one network on slices, for CPUs.
@@ -25,6 +26,7 @@ pub mod exported;
 pub mod gaussian;
 mod inference;
 mod init;
+mod matrix;
 mod mirror;
 mod mlp;
 mod moments;

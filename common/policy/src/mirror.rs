@@ -95,11 +95,15 @@ impl Parts {
     }
 
     /// Replaces `parts` by the parts of `rows`; both are `[n, width]`.
-    pub(crate) fn split(&self, rows: &[f32], parts: &mut Vec<f32>) {
-        parts.clear();
-        for row in rows.chunks_exact(self.width().max(1)) {
-            let part = |part: &Part| row[part.entry] + part.coefficient * row[part.image];
-            parts.extend(self.even.iter().chain(&self.odd).map(part));
+    pub(crate) fn split(&self, rows: &[f32], parts: &mut [f32]) {
+        let width = self.width().max(1);
+        for (row, numbers) in rows.chunks_exact(width).zip(parts.chunks_exact_mut(width)) {
+            let (even, odd) = numbers.split_at_mut(self.even.len());
+            for (parts, numbers) in [(&self.even, even), (&self.odd, odd)] {
+                for (part, number) in parts.iter().zip(numbers) {
+                    *number = row[part.entry] + part.coefficient * row[part.image];
+                }
+            }
         }
     }
 
@@ -108,9 +112,12 @@ impl Parts {
         rows.fill(0.0);
         let width = self.width().max(1);
         for (numbers, row) in parts.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
-            for (part, number) in self.even.iter().chain(&self.odd).zip(numbers) {
-                row[part.entry] += number;
-                row[part.image] += part.coefficient * number;
+            let (even, odd) = numbers.split_at(self.even.len());
+            for (parts, numbers) in [(&self.even, even), (&self.odd, odd)] {
+                for (part, number) in parts.iter().zip(numbers) {
+                    row[part.entry] += number;
+                    row[part.image] += part.coefficient * number;
+                }
             }
         }
     }

@@ -5,7 +5,6 @@
 
 use std::{borrow::Cow, cell::RefCell, ops::Range};
 
-use gemm::{Parallelism, gemm};
 use rayon::{ThreadPool, prelude::*};
 
 use crate::{
@@ -13,6 +12,7 @@ use crate::{
     elementwise::{
         add_bias, add_bias_elu, add_bias_elu_to_halves, add_column_sums, elu_backward, elu_backward_from_halves,
     },
+    matrix::{Matrix, multiply, transpose},
     mirror::Parts,
 };
 
@@ -54,8 +54,8 @@ pub(crate) struct Block {
 pub(crate) struct Reflected {
     /// Parts of a whole observation.
     pub(crate) observation: Parts,
-    /// Parts that the network sees.
-    pub(crate) seen: [Range<usize>; 2],
+    /// First even and first odd part that the network sees.
+    pub(crate) seen: [usize; 2],
     /// Parts of an output.
     pub(crate) output: Parts,
 }
@@ -63,16 +63,31 @@ pub(crate) struct Reflected {
 /// Numbers of one network over one chunk of rows: what the forward pass leaves for the backward pass.
 #[derive(Clone, Debug, Default)]
 pub struct Tape {
-    /// What the network sees, `[rows, input]`.
-    input: Vec<f32>,
     /// Outputs of the hidden layers, one layer after the other.
     activations: Vec<f32>,
     /// Output of the forward pass, `[rows, output]`.
-    pub output: Vec<f32>,
-    /// Gradient of the loss by the output, `[rows, output]`; the backward pass takes it and leaves other numbers.
-    pub gradient: Vec<f32>,
+    output: Vec<f32>,
+    /// Gradient by the output of a layer. This and `below` change places, and only grow, so that nothing is filled twice.
+    above: Vec<f32>,
     /// Gradient by the input of a layer, or even and odd parts of rows.
     below: Vec<f32>,
+}
+
+impl Tape {
+    /// Returns the output of the forward pass, and where the backward pass finds the gradient of the loss by it; both are
+    /// `[rows, output]`.
+    pub fn output_and_gradient(&mut self) -> (&[f32], &mut [f32]) {
+        let gradient = room(&mut self.above, self.output.len());
+        (&self.output, gradient)
+    }
+}
+
+/// Returns the first numbers of a buffer, which grows if it is shorter.
+fn room(buffer: &mut Vec<f32>, count: usize) -> &mut [f32] {
+    if buffer.len() < count {
+        buffer.resize(count, 0.0);
+    }
+    &mut buffer[..count]
 }
 
 thread_local! {
@@ -123,63 +138,78 @@ impl Mlp {
         self.layers.iter().map(|layer| layer.input + 2 * layer.output).sum()
     }
 
-    /// Returns `plane`, `[S, columns]`, as [`Self::gather`] reads it: as even and odd parts if the network is equivariant.
+    /// Returns `plane`, `[S, columns]`, as [`Self::forward`] reads it: as even and odd parts if the network is equivariant.
     /// Actor and critic read the same.
     pub fn inputs<'a>(&self, plane: &'a [f32]) -> Cow<'a, [f32]> {
         let Some(reflection) = &self.reflection else { return Cow::Borrowed(plane) };
-        let mut parts = Vec::with_capacity(plane.len());
+        let mut parts = vec![0.0; plane.len()];
         reflection.observation.split(plane, &mut parts);
         Cow::Owned(parts)
     }
 
-    /// Fills the tape's input from the given rows of [`Self::inputs`], `[S, columns]`.
-    pub fn gather(&self, inputs: &[f32], columns: usize, rows: impl Iterator<Item = usize>, tape: &mut Tape) {
-        tape.input.clear();
-        match &self.reflection {
-            None => rows.for_each(|row| tape.input.extend_from_slice(&inputs[row * columns..][..self.input()])),
-            Some(Reflected { seen: [even, odd], .. }) => rows.for_each(|row| {
-                let row = &inputs[row * columns..][..columns];
-                tape.input.extend_from_slice(&row[even.clone()]);
-                tape.input.extend_from_slice(&row[odd.clone()]);
-            }),
+    /// Writes the network's part of the parameter vector `flat` as [`Self::forward`] reads it: each block is
+    /// `[input, output]`, so that a product need not reorder it for every chunk of rows.
+    pub fn prepare(&self, flat: &[f32], prepared: &mut Vec<f32>) {
+        let parameters = &flat[self.range()];
+        prepared.resize(parameters.len(), 0.0);
+        for layer in &self.layers {
+            prepared[layer.bias.clone()].copy_from_slice(&parameters[layer.bias.clone()]);
+            for block in &layer.blocks {
+                let weight = &parameters[block.weight.clone()];
+                transpose(weight, block.input.len(), &mut prepared[block.weight.clone()]);
+            }
         }
     }
 
-    /// Computes the tape's output from its input. `flat` is the whole parameter vector.
-    pub fn forward(&self, flat: &[f32], tape: &mut Tape) {
-        let parameters = &flat[self.range()];
-        let Tape { input, activations, output, below, .. } = tape;
+    /// Computes the tape's output from `inputs`, `[rows, columns]`, with what [`Self::prepare`] wrote.
+    pub fn forward(&self, prepared: &[f32], inputs: &[f32], columns: usize, tape: &mut Tape) {
+        let Tape { activations, output, below, .. } = tape;
         let (last, hidden) = self.layers.split_last().expect("a network has at least one layer");
-        let rows = input.len() / self.input();
+        let rows = inputs.len() / columns;
         activations.resize(rows * hidden.iter().map(|layer| layer.output).sum::<usize>(), 0.0);
         output.resize(rows * last.output, 0.0);
-        let (mut input, mut activations) = (&input[..], &mut activations[..]);
+        let (mut source, mut activations) = (self.first_source(inputs, columns), &mut activations[..]);
         for layer in hidden {
             let (current, rest) = activations.split_at_mut(rows * layer.output);
-            layer.forward(parameters, input, current);
-            let bias = &parameters[layer.bias.clone()];
+            layer.forward(prepared, &source, current);
+            let bias = &prepared[layer.bias.clone()];
             match self.reflection {
                 None => add_bias_elu(current, bias),
                 Some(_) => add_bias_elu_to_halves(current, bias),
             }
-            (input, activations) = (current, rest);
+            (source, activations) = (Source::of(current, layer), rest);
         }
-        last.forward(parameters, input, output);
-        add_bias(output, last.output, &parameters[last.bias.clone()]);
+        last.forward(prepared, &source, output);
+        add_bias(output, last.output, &prepared[last.bias.clone()]);
         if let Some(reflection) = &self.reflection {
-            below.clone_from(output);
-            reflection.output.join(below, output);
+            let parts = room(below, output.len());
+            parts.copy_from_slice(output);
+            reflection.output.join(parts, output);
         }
     }
 
-    /// Computes the gradient of the parameters, which is as long as [`Self::range`]. The tape holds the forward pass and the
-    /// gradient by its output. With `accumulate` the result is added to `gradient`, otherwise it replaces it.
-    pub fn backward(&self, flat: &[f32], tape: &mut Tape, gradient: &mut [f32], accumulate: bool) {
+    /// Returns what the first layer reads.
+    fn first_source<'a>(&self, rows: &'a [f32], columns: usize) -> Source<'a> {
+        Source { rows, columns, starts: self.reflection.as_ref().map_or([0; 2], |reflection| reflection.seen) }
+    }
+
+    /// Computes the gradient of the parameters, which is as long as [`Self::range`]. The tape holds the forward pass of
+    /// `inputs` and the gradient by its output. With `accumulate` the result is added to `gradient`, otherwise it replaces
+    /// it. `flat` is the whole parameter vector.
+    pub fn backward(
+        &self,
+        flat: &[f32],
+        inputs: &[f32],
+        columns: usize,
+        tape: &mut Tape,
+        gradient: &mut [f32],
+        accumulate: bool,
+    ) {
         let parameters = &flat[self.range()];
-        let Tape { input, activations, gradient: above, below, .. } = tape;
-        let rows = input.len() / self.input();
+        let Tape { activations, output, above, below } = tape;
+        let rows = inputs.len() / columns;
         if let Some(reflection) = &self.reflection {
-            reflection.output.split(above, below);
+            reflection.output.split(&above[..output.len()], room(below, output.len()));
             std::mem::swap(above, below);
         }
         let mut end = activations.len();
@@ -188,55 +218,64 @@ impl Mlp {
             if !accumulate {
                 bias_gradient.fill(0.0);
             }
+            let current = &mut above[..rows * layer.output];
             if i + 1 == self.layers.len() {
-                add_column_sums(above, layer.output, bias_gradient);
+                add_column_sums(current, layer.output, bias_gradient);
             } else {
                 let start = end - rows * layer.output;
                 let activation = &activations[start..end];
                 match self.reflection {
-                    None => elu_backward(above, activation, bias_gradient),
-                    Some(_) => elu_backward_from_halves(above, activation, bias_gradient),
+                    None => elu_backward(current, activation, bias_gradient),
+                    Some(_) => elu_backward_from_halves(current, activation, bias_gradient),
                 }
                 end = start;
             }
-            let seen = if i == 0 { &input[..] } else { &activations[end - rows * layer.input..end] };
-            let seen = Matrix::row_major(seen, layer.input);
-            let above_rows = Matrix::row_major(above, layer.output);
-            for block in &layer.blocks {
+            let source = match i {
+                0 => self.first_source(inputs, columns),
+                _ => Source::of(&activations[end - rows * layer.input..end], &self.layers[i - 1]),
+            };
+            let above_rows = Matrix::row_major(current, layer.output);
+            for (number, block) in layer.blocks.iter().enumerate() {
                 let sizes = [block.output.len(), block.input.len(), rows];
                 let left = above_rows.skip_columns(block.output.start).transposed();
                 let weight = &mut gradient[block.weight.clone()];
-                multiply(sizes, left, seen.skip_columns(block.input.start), weight, block.input.len(), accumulate);
+                multiply(sizes, left, source.block(number), weight, block.input.len(), accumulate);
             }
             if i > 0 {
-                below.resize(rows * layer.input, 0.0);
+                let next = room(below, rows * layer.input);
                 for block in &layer.blocks {
                     let weight = Matrix::row_major(&parameters[block.weight.clone()], block.input.len());
                     let sizes = [rows, block.input.len(), block.output.len()];
                     let left = above_rows.skip_columns(block.output.start);
-                    multiply(sizes, left, weight, &mut below[block.input.start..], layer.input, false);
+                    multiply(sizes, left, weight, &mut next[block.input.start..], layer.input, false);
                 }
                 std::mem::swap(above, below);
             }
         }
     }
 
-    /// Evaluates the network for every row of `plane`, `[rows, columns]`, into `output`, `[rows, output]`. The threads of
-    /// `pool` share the rows, with the same results.
-    pub fn evaluate(&self, flat: &[f32], plane: &[f32], columns: usize, output: &mut [f32], pool: Option<&ThreadPool>) {
+    /// Evaluates the network for every row of `plane`, `[rows, columns]`, into `output`, `[rows, output]`, with what
+    /// [`Self::prepare`] wrote. The threads of `pool` share the rows, with the same results.
+    pub fn evaluate(
+        &self,
+        prepared: &[f32],
+        plane: &[f32],
+        columns: usize,
+        output: &mut [f32],
+        pool: Option<&ThreadPool>,
+    ) {
         let chunk = |(rows, output): (&[f32], &mut [f32])| {
             TAPE.with_borrow_mut(|tape| {
-                let count = rows.len() / columns;
                 match &self.reflection {
-                    None => self.gather(rows, columns, 0..count, tape),
+                    None => self.forward(prepared, rows, columns, tape),
                     Some(reflection) => {
-                        let mut parts = std::mem::take(&mut tape.below);
-                        reflection.observation.split(rows, &mut parts);
-                        self.gather(&parts, columns, 0..count, tape);
-                        tape.below = parts;
+                        let mut parts = std::mem::take(&mut tape.above);
+                        let inputs = room(&mut parts, rows.len());
+                        reflection.observation.split(rows, inputs);
+                        self.forward(prepared, inputs, columns, tape);
+                        tape.above = parts;
                     }
                 }
-                self.forward(flat, tape);
                 output.copy_from_slice(&tape.output);
             });
         };
@@ -251,83 +290,36 @@ impl Mlp {
 }
 
 impl BlockLayer {
-    /// Computes `output = input Wᵀ`.
-    fn forward(&self, parameters: &[f32], input: &[f32], output: &mut [f32]) {
+    /// Computes `output = input Wᵀ`, from the transposed weight.
+    fn forward(&self, prepared: &[f32], source: &Source, output: &mut [f32]) {
         let rows = output.len() / self.output;
-        for block in &self.blocks {
-            let weight = Matrix::row_major(&parameters[block.weight.clone()], block.input.len()).transposed();
-            let input = Matrix::row_major(input, self.input).skip_columns(block.input.start);
+        for (number, block) in self.blocks.iter().enumerate() {
+            let weight = Matrix::row_major(&prepared[block.weight.clone()], block.output.len());
             let sizes = [rows, block.output.len(), block.input.len()];
-            multiply(sizes, input, weight, &mut output[block.output.start..], self.output, false);
+            multiply(sizes, source.block(number), weight, &mut output[block.output.start..], self.output, false);
         }
     }
 }
 
-/// View of a matrix: element `(i, j)` is at `i · row_stride + j · column_stride`.
-#[derive(Clone, Copy)]
-struct Matrix<'a> {
-    data: &'a [f32],
-    row_stride: usize,
-    column_stride: usize,
+/// Rows that a layer reads.
+struct Source<'a> {
+    rows: &'a [f32],
+    columns: usize,
+    /// First column that each block reads.
+    starts: [usize; 2],
 }
 
-impl<'a> Matrix<'a> {
-    fn row_major(data: &'a [f32], columns: usize) -> Self {
-        Self { data, row_stride: columns, column_stride: 1 }
+impl<'a> Source<'a> {
+    /// Returns the activations of a layer as the next one reads them.
+    fn of(rows: &'a [f32], layer: &BlockLayer) -> Self {
+        let mut starts = [0; 2];
+        starts.iter_mut().zip(&layer.blocks).for_each(|(start, block)| *start = block.output.start);
+        Self { rows, columns: layer.output, starts }
     }
 
-    /// Returns the matrix without its first columns.
-    fn skip_columns(self, column: usize) -> Self {
-        Self { data: &self.data[column.min(self.data.len())..], ..self }
-    }
-
-    fn transposed(self) -> Self {
-        Self { data: self.data, row_stride: self.column_stride, column_stride: self.row_stride }
-    }
-
-    /// Returns whether all of `rows × columns` is inside the data.
-    fn covers(&self, rows: usize, columns: usize) -> bool {
-        rows == 0 || columns == 0 || (rows - 1) * self.row_stride + (columns - 1) * self.column_stride < self.data.len()
-    }
-}
-
-/// Computes `product = left · right`, or `product += left · right`: `[m, k] · [k, n]` into `[m, n]`, whose rows begin every
-/// `stride` numbers.
-fn multiply([m, n, k]: [usize; 3], left: Matrix, right: Matrix, product: &mut [f32], stride: usize, accumulate: bool) {
-    if m == 0 || n == 0 {
-        return;
-    }
-    let reach = (m - 1) * stride + n;
-    assert!(left.covers(m, k) && right.covers(k, n) && product.len() >= reach, "matrix sizes do not fit");
-    if k == 0 {
-        let rows = product.chunks_mut(stride).take(if accumulate { 0 } else { m });
-        return rows.for_each(|row| row[..n].fill(0.0));
-    }
-    let kept = if accumulate { 1.0 } else { 0.0 };
-    // SAFETY: by the assertion, sizes and strides reach only indices inside the three slices, and the mutable slice cannot
-    // overlap the others.
-    unsafe {
-        gemm(
-            m,
-            n,
-            k,
-            product.as_mut_ptr(),
-            1,
-            stride as isize,
-            accumulate,
-            left.data.as_ptr(),
-            left.column_stride as isize,
-            left.row_stride as isize,
-            right.data.as_ptr(),
-            right.column_stride as isize,
-            right.row_stride as isize,
-            kept,
-            1.0,
-            false,
-            false,
-            false,
-            Parallelism::None,
-        );
+    /// Returns what a block reads, and columns after it.
+    fn block(&self, number: usize) -> Matrix<'a> {
+        Matrix::row_major(self.rows, self.columns).skip_columns(self.starts[number])
     }
 }
 

@@ -60,14 +60,29 @@ fn networks(shape: &NetworkShape) -> [Vec<Dense>; 2] {
 fn on_slices(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usize) -> [Vec<f32>; 2] {
     let mlp = Mlp::new(layers.to_vec());
     let mut tape = Tape::default();
-    mlp.gather(observations, columns, 0..observations.len() / columns, &mut tape);
-    mlp.forward(flat, &mut tape);
-    let slope = |(output, c): (&f32, f32)| c + 2.0 * output;
-    tape.gradient = tape.output.iter().zip(wave(tape.output.len(), 0.3)).map(slope).collect();
-    let output = tape.output.clone();
+    mlp.forward(&prepared(&mlp, flat), observations, columns, &mut tape);
+    let (output, slopes) = tape.output_and_gradient();
+    for ((slope, output), c) in slopes.iter_mut().zip(output).zip(wave(output.len(), 0.3)) {
+        *slope = c + 2.0 * output;
+    }
+    let output = output.to_vec();
     let mut gradient = vec![f32::NAN; mlp.range().len()];
-    mlp.backward(flat, &mut tape, &mut gradient, false);
+    mlp.backward(flat, observations, columns, &mut tape, &mut gradient, false);
     [output, gradient]
+}
+
+/// Returns the parameters of a network as its forward pass reads them.
+fn prepared(mlp: &Mlp, flat: &[f32]) -> Vec<f32> {
+    let mut prepared = Vec::new();
+    mlp.prepare(flat, &mut prepared);
+    prepared
+}
+
+/// Sets the gradient to that of half the squared output, and returns the output.
+fn slope_is_output(tape: &mut Tape) -> Vec<f32> {
+    let (output, gradient) = tape.output_and_gradient();
+    gradient.copy_from_slice(output);
+    output.to_vec()
 }
 
 /// Returns the output of a network for one row in f64, straight from the definition.
@@ -121,26 +136,26 @@ fn the_gradient_agrees_with_finite_differences() {
 fn a_tape_that_is_used_again_gives_the_same_bits_and_gradients_add_up() {
     let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8], privileged: 0 };
     let (mlp, flat, observations) = (Mlp::new(shape.actor()), parameters(&shape), wave(300 * 5, 1.37));
-    let mut used = Tape::default();
+    let (weights, mut used) = (prepared(&mlp, &flat), Tape::default());
     for rows in [256, 10, 200, 1] {
+        let inputs = &observations[..rows * 5];
         let mut fresh = Tape::default();
         let [again, first] = [&mut used, &mut fresh].map(|tape| {
-            mlp.gather(&observations, 5, 0..rows, tape);
-            mlp.forward(&flat, tape);
-            tape.gradient.clone_from(&tape.output);
+            mlp.forward(&weights, inputs, 5, tape);
+            let output = slope_is_output(tape);
             let mut gradient = vec![0.0; mlp.range().len()];
-            mlp.backward(&flat, tape, &mut gradient, false);
-            (gradient, tape.output.clone())
+            mlp.backward(&flat, inputs, 5, tape, &mut gradient, false);
+            (gradient, output)
         });
         assert_eq!(again, first, "{rows} rows");
     }
     let mut twice = vec![0.0; mlp.range().len()];
     for _ in 0..2 {
-        used.gradient.clone_from(&used.output);
-        mlp.backward(&flat, &mut used, &mut twice, true);
+        slope_is_output(&mut used);
+        mlp.backward(&flat, &observations[..5], 5, &mut used, &mut twice, true);
     }
-    used.gradient.clone_from(&used.output);
+    slope_is_output(&mut used);
     let mut once = vec![0.0; mlp.range().len()];
-    mlp.backward(&flat, &mut used, &mut once, false);
+    mlp.backward(&flat, &observations[..5], 5, &mut used, &mut once, false);
     assert!(twice.iter().zip(once).all(|(twice, once)| (twice - 2.0 * once).abs() < 1e-5));
 }

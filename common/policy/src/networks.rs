@@ -115,10 +115,9 @@ impl Networks {
             BlockLayer { input: from.width(), output: to.width(), blocks: blocks.into(), bias: take(to.even.len()) }
         };
         let layers: Vec<BlockLayer> = sides.windows(2).map(layer).collect();
-        let (first, last) = (&sides[0], &sides[sides.len() - 1]);
-        let odd_start = observation.even.len();
-        let seen = [0..first.even.len(), odd_start..odd_start + first.odd.len()];
-        Mlp::equivariant(start..start + end, layers, Reflected { observation, seen, output: last.clone() })
+        let output = sides[sides.len() - 1].clone();
+        let seen = [0, observation.even.len()];
+        Mlp::equivariant(start..start + end, layers, Reflected { observation, seen, output })
     }
 
     /// Returns the range of the logarithms of standard deviations: one per action, or one per action and its mirror image.

@@ -3,6 +3,7 @@
 
 use std::iter::Sum;
 
+use multiversion::multiversion;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::HALF_LN_TAU;
 
@@ -63,51 +64,82 @@ impl<'a> LossTerms<'a> {
         &self,
         rows: &[u32],
         means: &[f32],
-        gradient: &mut Vec<f32>,
+        gradient: &mut [f32],
         log_std_gradient: &mut [f64],
         sums: &mut LossSums,
     ) {
-        let actions = self.precision.len();
-        let clip = self.config.clip_range as f32;
-        let limit = self.config.bounds_limit as f32;
-        let bounds_slope = (2.0 * self.config.bounds_coefficient) as f32 * self.share;
-        gradient.clear();
-        for (row, means) in rows.iter().map(|row| *row as usize).zip(means.chunks_exact(actions)) {
-            let taken = &self.batch.actions[row * actions..][..actions];
-            let mut distance = 0.0;
-            for ((action, mean), precision) in taken.iter().zip(means).zip(&self.precision) {
-                distance += (action - mean) * (action - mean) * precision;
-            }
-            let log_ratio = -0.5 * distance - self.constant - self.batch.log_probs[row];
-            let ratio = log_ratio.min(LOG_RATIO_MAX as f32).exp();
-            let advantage = self.advantages[row];
-            let (gain, clipped_gain) = (ratio * advantage, ratio.clamp(1.0 - clip, 1.0 + clip) * advantage);
-            sums.policy -= f64::from(gain.min(clipped_gain));
-            sums.clipped += f64::from(u8::from((ratio - 1.0).abs() > clip));
-            // The derivative of the ratio is the ratio. Where the clipped gain is smaller, it is constant.
-            let moves = gain <= clipped_gain && log_ratio < LOG_RATIO_MAX as f32;
-            let slope = if moves { -gain * self.share } else { 0.0 };
-            for (index, mean) in means.iter().enumerate() {
-                let difference = taken[index] - mean;
-                let pull = difference * self.precision[index];
-                let excess = mean - mean.clamp(-limit, limit);
-                gradient.push(slope * pull + bounds_slope * excess);
-                log_std_gradient[index] += f64::from(slope * (difference * pull - 1.0));
-                sums.bounds += f64::from(excess * excess);
-            }
-        }
+        policy_rows(self, rows, means, gradient, log_std_gradient, sums);
     }
 
     /// Half the squared error of the values of the given rows. Writes its gradient by the values, `[rows]`.
-    pub(crate) fn value(&self, rows: &[u32], values: &[f32], gradient: &mut Vec<f32>, sums: &mut LossSums) {
+    pub(crate) fn value(&self, rows: &[u32], values: &[f32], gradient: &mut [f32], sums: &mut LossSums) {
         let slope = self.config.value_coefficient as f32 * self.share;
-        gradient.clear();
-        for (row, value) in rows.iter().zip(values) {
+        for ((row, value), by_value) in rows.iter().zip(values).zip(gradient) {
             let error = value - self.batch.returns[*row as usize];
             sums.value += f64::from(error * error) * 0.5;
-            gradient.push(slope * error);
+            *by_value = slope * error;
         }
     }
+}
+
+/// [`LossTerms::policy`], compiled for the vector registers of this machine.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn policy_rows(
+    terms: &LossTerms,
+    rows: &[u32],
+    means: &[f32],
+    gradient: &mut [f32],
+    log_std_gradient: &mut [f64],
+    sums: &mut LossSums,
+) {
+    let LossTerms { batch, advantages, config, precision, constant, share } = terms;
+    let actions = precision.len();
+    let clip = config.clip_range as f32;
+    let limit = config.bounds_limit as f32;
+    let bounds_slope = (2.0 * config.bounds_coefficient) as f32 * share;
+    let rows = rows.iter().map(|row| *row as usize);
+    for ((row, means), by_mean) in rows.zip(means.chunks_exact(actions)).zip(gradient.chunks_exact_mut(actions)) {
+        let taken = &batch.actions[row * actions..][..actions];
+        let distance = sum_in_lanes(taken, means, precision, |action, mean, precision| {
+            (action - mean) * (action - mean) * precision
+        });
+        let log_ratio = -0.5 * distance - constant - batch.log_probs[row];
+        let ratio = log_ratio.min(LOG_RATIO_MAX as f32).exp();
+        let advantage = advantages[row];
+        let (gain, clipped_gain) = (ratio * advantage, ratio.clamp(1.0 - clip, 1.0 + clip) * advantage);
+        sums.policy -= f64::from(gain.min(clipped_gain));
+        sums.clipped += f64::from(u8::from((ratio - 1.0).abs() > clip));
+        // The derivative of the ratio is the ratio. Where the clipped gain is smaller, it is constant.
+        let moves = gain <= clipped_gain && log_ratio < LOG_RATIO_MAX as f32;
+        let slope = if moves { -gain * share } else { 0.0 };
+        let columns = means.iter().zip(taken).zip(precision).zip(by_mean).zip(&mut *log_std_gradient);
+        for ((((mean, action), precision), by_mean), by_log_std) in columns {
+            let difference = action - mean;
+            let pull = difference * precision;
+            *by_mean = slope * pull + bounds_slope * (mean - mean.clamp(-limit, limit));
+            *by_log_std += f64::from(slope * (difference * pull - 1.0));
+        }
+        sums.bounds += f64::from(sum_in_lanes(means, means, means, |mean, _, _| {
+            let excess = mean - mean.clamp(-limit, limit);
+            excess * excess
+        }));
+    }
+}
+
+/// Returns the sum of a term of the entries of three rows of equal length, in a fixed order that fits vector registers.
+#[inline(always)]
+fn sum_in_lanes(a: &[f32], b: &[f32], c: &[f32], term: impl Fn(f32, f32, f32) -> f32) -> f32 {
+    let mut sums = [0.0; 8];
+    let ((a, a_rest), (b, b_rest), (c, c_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>(), c.as_chunks::<8>());
+    for ((a, b), c) in a.iter().zip(b).zip(c) {
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            *sum += term(a[lane], b[lane], c[lane]);
+        }
+    }
+    for (((sum, a), b), c) in sums.iter_mut().zip(a_rest).zip(b_rest).zip(c_rest) {
+        *sum += term(*a, *b, *c);
+    }
+    sums.iter().sum()
 }
 
 #[cfg(test)]
@@ -125,7 +157,7 @@ mod tests {
         };
         let config = PpoConfig::default();
         let terms = LossTerms::new(&batch, &[1.0, 3.0, 1.0], &config, &[0.0], 3);
-        let (mut gradient, mut log_std_gradient, mut sums) = (Vec::new(), [0.0], LossSums::default());
+        let (mut gradient, mut log_std_gradient, mut sums) = ([0.0; 3], [0.0], LossSums::default());
         terms.policy(&[0, 1, 2], &[0.0; 3], &mut gradient, &mut log_std_gradient, &mut sums);
         assert_eq!(sums.clipped, 2.0);
         for (found, expected) in gradient.iter().zip([0.0, -1.0, -0.5 / 3.0]) {

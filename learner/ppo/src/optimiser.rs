@@ -4,11 +4,14 @@
 //! the place of ε of PyTorch's `torch.optim.Adam`: β₁ 0.9, β₂ 0.999, ε 1e-8 outside the root, no weight decay.
 
 use multiversion::multiversion;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;
 const EPSILON: f64 = 1e-8;
+/// Parameters that one thread steps, or whose squares it sums, at a time.
+const PART: usize = 16_384;
 
 /// State of Adam. Together with the learning rate, a resumed run continues from it exactly.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,7 +30,7 @@ impl OptimiserState {
         Self { step: 0, first_moment: vec![0.0; parameters], second_moment: vec![0.0; parameters] }
     }
 
-    /// Takes one step of Adam with the gradient times `scale`.
+    /// Takes one step of Adam with the gradient times `scale`, on the threads of the pool that calls it.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -37,7 +40,11 @@ impl OptimiserState {
         self.step += 1;
         let (step_size, root_correction) = bias_corrections(self.step, learning_rate);
         let factors = Factors { scale, step_size: step_size as f32, root_correction: root_correction as f32 };
-        adam(parameters, gradient, &mut self.first_moment, &mut self.second_moment, &factors);
+        let moments = self.first_moment.par_chunks_mut(PART).zip(self.second_moment.par_chunks_mut(PART));
+        let parts = parameters.par_chunks_mut(PART).zip(gradient.par_chunks(PART)).zip(moments);
+        parts.for_each(|((parameters, gradient), (first, second))| {
+            adam(parameters, gradient, first, second, &factors);
+        });
     }
 }
 
@@ -70,12 +77,19 @@ fn adam(parameters: &mut [f32], gradient: &[f32], first: &mut [f32], second: &mu
     }
 }
 
-/// Returns the Euclidean norm of a gradient, summed in f64; infinite or not a number if an entry is.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2+fma"))]
+/// Returns the Euclidean norm of a gradient, summed in f64; infinite or not a number if an entry is. The parts are summed in
+/// order, so the result does not depend on the number of threads.
 pub fn global_norm(gradient: &[f32]) -> f64 {
+    let parts: Vec<f64> = gradient.par_chunks(PART).map(squares).collect();
+    parts.iter().sum::<f64>().sqrt()
+}
+
+/// Returns the sum of the squares of numbers.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2+fma"))]
+fn squares(numbers: &[f32]) -> f64 {
     // Sixteen sums side by side, in a fixed order, so that the loop vectorises and the result never changes.
     let mut sums = [0.0_f64; 16];
-    let (chunks, rest) = gradient.as_chunks::<16>();
+    let (chunks, rest) = numbers.as_chunks::<16>();
     for chunk in chunks {
         for (sum, g) in sums.iter_mut().zip(chunk) {
             *sum += f64::from(*g) * f64::from(*g);
@@ -84,7 +98,7 @@ pub fn global_norm(gradient: &[f32]) -> f64 {
     for (sum, g) in sums.iter_mut().zip(rest) {
         *sum += f64::from(*g) * f64::from(*g);
     }
-    sums.iter().sum::<f64>().sqrt()
+    sums.iter().sum()
 }
 
 /// Returns the factor that reduces a gradient of `norm` to `max_norm`, or 1 if it is smaller: Pascanu, Mikolov & Bengio

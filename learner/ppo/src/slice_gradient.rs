@@ -32,8 +32,13 @@ pub(crate) struct SliceGradient<'a> {
     networks: &'a Networks,
     /// Observations as both networks read them.
     inputs: Cow<'a, [f32]>,
+    /// Those of a minibatch.
+    gathered: Vec<f32>,
     actor: Mlp,
     critic: Mlp,
+    /// Parameters as the networks' forward passes read them.
+    actor_weights: Vec<f32>,
+    critic_weights: Vec<f32>,
     /// Most partial gradients per network.
     lanes_max: usize,
     actor_lanes: Vec<Lane>,
@@ -57,40 +62,61 @@ impl<'a> SliceGradient<'a> {
         let lane = |network: &Mlp| network.range().len() + CHUNK_ROWS * network.tape_width();
         let lane_bytes = size_of::<f32>() * (lane(&actor) + lane(&critic));
         let lanes_max = LANES_MIN.max(LANE_BYTES_MAX / lane_bytes);
-        let (actor_lanes, critic_lanes) = (Vec::new(), Vec::new());
-        Self { batch, advantages, config, networks, inputs, actor, critic, lanes_max, actor_lanes, critic_lanes }
+        Self {
+            batch,
+            advantages,
+            config,
+            networks,
+            inputs,
+            gathered: Vec::new(),
+            actor,
+            critic,
+            actor_weights: Vec::new(),
+            critic_weights: Vec::new(),
+            lanes_max,
+            actor_lanes: Vec::new(),
+            critic_lanes: Vec::new(),
+        }
     }
 
     /// Computes the flat gradient of the loss over the given rows, on the threads of the pool that calls it. Returns
     /// the loss.
     pub(crate) fn compute(&mut self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> LossSums {
-        let Self { batch, networks, inputs, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
+        let Self { batch, networks, inputs, gathered, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
         let shape = networks.shape();
+        let columns = shape.observation;
+        gathered.resize(rows.len() * columns, 0.0);
+        rayon::join(
+            || gather(inputs, columns, rows, gathered),
+            || {
+                actor.prepare(parameters, &mut self.actor_weights);
+                critic.prepare(parameters, &mut self.critic_weights);
+            },
+        );
+        let (gathered, actor_weights, critic_weights) = (&*gathered, &self.actor_weights, &self.critic_weights);
         let terms = LossTerms::new(batch, self.advantages, config, &networks.log_std(parameters), rows.len());
         let lanes = rows.len().div_ceil(CHUNK_ROWS).min(self.lanes_max);
-        let chunks_of = |lane: usize| rows.chunks(CHUNK_ROWS).skip(lane).step_by(lanes).enumerate();
+        let chunks = || rows.chunks(CHUNK_ROWS).zip(gathered.chunks(CHUNK_ROWS * columns));
+        let chunks_of = |lane: usize| chunks().skip(lane).step_by(lanes).enumerate();
         actor_lanes.resize_with(lanes, Lane::default);
         critic_lanes.resize_with(lanes, Lane::default);
 
-        let evaluate = |network: &Mlp, rows: &[u32], tape: &mut Tape| {
-            let rows = rows.iter().map(|row| *row as usize);
-            network.gather(inputs, shape.observation, rows, tape);
-            network.forward(parameters, tape);
-        };
         let actor_lane = |(number, lane): (usize, &mut Lane)| {
             let Lane { tape, gradient, log_std_gradient, sums } = lane.begin(actor, shape.action);
-            for (index, rows) in chunks_of(number) {
-                evaluate(actor, rows, tape);
-                terms.policy(rows, &tape.output, &mut tape.gradient, log_std_gradient, sums);
-                actor.backward(parameters, tape, gradient, index > 0);
+            for (index, (rows, inputs)) in chunks_of(number) {
+                actor.forward(actor_weights, inputs, columns, tape);
+                let (means, by_means) = tape.output_and_gradient();
+                terms.policy(rows, means, by_means, log_std_gradient, sums);
+                actor.backward(parameters, inputs, columns, tape, gradient, index > 0);
             }
         };
         let critic_lane = |(number, lane): (usize, &mut Lane)| {
             let Lane { tape, gradient, sums, .. } = lane.begin(critic, 0);
-            for (index, rows) in chunks_of(number) {
-                evaluate(critic, rows, tape);
-                terms.value(rows, &tape.output, &mut tape.gradient, sums);
-                critic.backward(parameters, tape, gradient, index > 0);
+            for (index, (rows, inputs)) in chunks_of(number) {
+                critic.forward(critic_weights, inputs, columns, tape);
+                let (values, by_values) = tape.output_and_gradient();
+                terms.value(rows, values, by_values, sums);
+                critic.backward(parameters, inputs, columns, tape, gradient, index > 0);
             }
         };
         rayon::join(
@@ -118,14 +144,24 @@ impl Lane {
     }
 }
 
+/// Copies rows of `inputs` to `gathered`; both have so many columns.
+fn gather(inputs: &[f32], columns: usize, rows: &[u32], gathered: &mut [f32]) {
+    let chunks = gathered.par_chunks_mut(CHUNK_ROWS * columns).zip(rows.par_chunks(CHUNK_ROWS));
+    chunks.for_each(|(gathered, rows)| {
+        for (target, row) in gathered.chunks_exact_mut(columns).zip(rows) {
+            target.copy_from_slice(&inputs[*row as usize * columns..][..columns]);
+        }
+    });
+}
+
 /// Sums the partial gradients of one network.
 fn sum_gradients(lanes: &[Lane], gradient: &mut [f32]) {
     gradient.par_chunks_mut(SUM_PARAMETERS).enumerate().for_each(|(part, target)| {
-        let start = part * SUM_PARAMETERS;
-        target.fill(0.0);
-        for lane in lanes {
-            let parts = &lane.gradient[start..start + target.len()];
-            target.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+        let range = part * SUM_PARAMETERS..part * SUM_PARAMETERS + target.len();
+        let mut parts = lanes.iter().map(|lane| &lane.gradient[range.clone()]);
+        target.copy_from_slice(parts.next().expect("a minibatch has rows"));
+        for part in parts {
+            target.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
         }
     });
 }

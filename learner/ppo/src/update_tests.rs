@@ -271,10 +271,10 @@ fn the_learning_rate_adapts_once_per_epoch() {
 #[test]
 fn the_divergence_is_that_after_the_last_step() {
     // One pass of one gradient step: the ratios are 1 when its gradient is computed.
-    let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 0.0, learning_rate: 1e-3, ..config() };
+    let config = PpoConfig { minibatch: 500, epochs: 1, target_kl: 0.0, learning_rate: 1e-3, ..config() };
     let mut updater = updater(&config, 1);
     let before = updater.policy();
-    let batch = batch(&updater, 600, 8);
+    let batch = batch(&updater, 500, 8);
     let free = updater.clone().update(&batch, 9).expect("a sound batch").approx_kl;
     let config = PpoConfig { target_kl: free / 3.0, ..config };
     updater.ppo.set_config(&config);
@@ -295,7 +295,7 @@ fn passes_that_lead_too_far_are_undone() {
     // As little noise as a finished policy has.
     let range = updater.state.networks.log_std_range();
     updater.state.parameters[range].fill(-3.0);
-    let (before, batch) = (updater.policy(), batch(&updater, 600, 8));
+    let (before, batch) = (updater.policy(), batch(&updater, 500, 8));
     let stats = updater.update(&batch, 9).expect("a sound batch");
     assert!((1..8).contains(&stats.undone_passes), "{stats:?}");
     assert!(stats.approx_kl > 0.0 && stats.approx_kl <= 0.08, "{stats:?}");

@@ -82,6 +82,9 @@ pub struct SweepArgs {
     /// Check everything, print the plan as JSON and begin nothing, for programs that run the trials themselves.
     #[arg(long, hide = true)]
     plan: bool,
+    /// Draw `sweep.png` beside this plan, whose trials another program ran.
+    #[arg(long, value_name = "PLAN", hide = true, exclusive = true)]
+    draw: Option<PathBuf>,
     #[command(flatten)]
     new: NewRunArgs,
     #[command(flatten)]
@@ -107,7 +110,10 @@ pub fn describe(arg: Arg) -> Arg {
 /// Runs a sweep to its end, or until it is stopped.
 pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     if let Some(sweep) = &args.schedule {
-        return print_schedule(sweep);
+        return report::print_best_schedule(sweep);
+    }
+    if let Some(plan) = &args.draw {
+        return report::draw_plan(plan);
     }
     let flags = train_flags();
     let begun = args.new.run_dir.as_deref().filter(|root| args.any.resume_or_start && SweepFolder::is_sweep(root));
@@ -379,17 +385,4 @@ fn train_flags() -> Vec<String> {
         }
     }
     flags
-}
-
-fn print_schedule(sweep: &str) -> anyhow::Result<()> {
-    let root = plan::find(sweep)?;
-    let plan = plan::read(&root)?;
-    let (search, goal) = (plan.search()?, Goal::read(&plan.goal).map_err(Usage)?);
-    let mut results = SweepResults::of_ended(&root, &plan, &goal, search.interval_steps().is_some());
-    plan.unfinished().into_iter().for_each(|index| results.read(&plan, index));
-    match results.best(&plan) {
-        Some(best) => report::print_schedule(&root, &plan, best),
-        None => anyhow::bail!("no trial of `{sweep}` has reached anything yet; wait for its first results"),
-    }
-    Ok(())
 }

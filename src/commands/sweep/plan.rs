@@ -237,7 +237,14 @@ pub(crate) fn find(given: &str) -> Result<PathBuf, Usage> {
 /// # Errors
 /// If it cannot be read.
 pub(crate) fn read(root: &Path) -> anyhow::Result<Plan> {
-    let path = root.join(FILE);
-    let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
+    read_file(&root.join(FILE))
+}
+
+/// Reads a plan.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn read_file(path: &Path) -> anyhow::Result<Plan> {
+    let text = fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()))?;
     serde_json::from_str(&text).with_context(|| format!("`{}` is not the plan of a sweep", path.display()))
 }

@@ -2,9 +2,11 @@
 
 use std::{
     collections::BTreeMap,
+    fs,
     path::{Path, PathBuf},
 };
 
+use anyhow::Context;
 use serde_json::json;
 use treadmill_learner::metrics::{GoalCost, SweptCurve, draw_sweep, table::format_number};
 use treadmill_runtime::{
@@ -14,6 +16,7 @@ use treadmill_runtime::{
 };
 
 use super::{
+    goal::Goal,
     plan::{self, Plan, SweepFolder, Trial},
     results::{SettingResult, SweepResults},
     search::SweepSearch,
@@ -21,7 +24,10 @@ use super::{
 };
 use crate::{
     commands::runs::{duration, print_table, record::Record},
-    launch::output::{say, say_error},
+    launch::{
+        exit_code::Usage,
+        output::{say, say_error},
+    },
 };
 
 /// Most columns of a row's keys.
@@ -101,7 +107,9 @@ fn csv_cell(text: &str) -> String {
 /// Prints the tables of a sweep and draws its picture.
 pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
     let (settings, root) = (results.settings(plan), &results.root);
-    draw(plan, results, &settings);
+    if let Err(why) = draw(plan, results, &settings) {
+        say_error(&format!("the picture is missing: {}", error_chain(&*why)));
+    }
     let Some(best) = results.best(plan) else { return };
     print_table(&results.counted(plan).into_iter().map(|(_, found)| &found.record).collect::<Vec<_>>(), None);
     say(&format!("\nGoal: {}", results.goal));
@@ -142,7 +150,11 @@ pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value 
     })
 }
 
-fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) {
+/// Draws `sweep.png`.
+///
+/// # Errors
+/// If it cannot be written.
+pub(crate) fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) -> anyhow::Result<()> {
     let SweepResults { root, goal, .. } = results;
     let curve = |found: &SettingResult| SweptCurve {
         name: keys_text(&plan.trials[found.trials[0]].keys),
@@ -150,9 +162,7 @@ fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) {
     };
     let curves: Vec<SweptCurve> = settings.iter().map(curve).collect();
     let title = format!("{}: {goal}", root.file_name().unwrap_or_default().to_string_lossy());
-    if let Err(why) = draw_sweep(&title, &curves, &goal.tag, &cost(plan, results), &root.join("sweep.png")) {
-        say_error(&format!("the picture is missing: {}", error_chain(&why)));
-    }
+    Ok(draw_sweep(&title, &curves, &goal.tag, &cost(plan, results), &root.join("sweep.png"))?)
 }
 
 /// Returns what the trials reached, in their order, against what they cost.
@@ -221,6 +231,35 @@ pub(crate) fn print_fork(plan: &Plan, index: usize) {
     let (parent, steps) = parent.unwrap_or_default();
     let (name, parent, steps) = (index + 1, parent + 1, thousands(steps));
     say(&shown(&format!("trial-{name} forks trial-{parent} at {steps} steps: {}", keys_text(keys))));
+}
+
+/// Draws `sweep.png` beside a plan whose trials another program ran.
+///
+/// # Errors
+/// If the plan cannot be read, or the picture not written.
+pub(crate) fn draw_plan(path: &Path) -> anyhow::Result<()> {
+    let path = fs::canonicalize(path).with_context(|| format!("cannot read `{}`", path.display()))?;
+    let plan = plan::read_file(&path)?;
+    let goal = Goal::read(&plan.goal).map_err(Usage)?;
+    let results = SweepResults::of_ended(path.parent().unwrap_or(&path), &plan, &goal, false);
+    draw(&plan, &results, &results.settings(&plan))
+}
+
+/// Prints the commands that train the best line of a sweep anew.
+///
+/// # Errors
+/// If there is no sweep or no result.
+pub(crate) fn print_best_schedule(sweep: &str) -> anyhow::Result<()> {
+    let root = plan::find(sweep)?;
+    let plan = plan::read(&root)?;
+    let (search, goal) = (plan.search()?, Goal::read(&plan.goal).map_err(Usage)?);
+    let mut results = SweepResults::of_ended(&root, &plan, &goal, search.interval_steps().is_some());
+    plan.unfinished().into_iter().for_each(|index| results.read(&plan, index));
+    match results.best(&plan) {
+        Some(best) => print_schedule(&root, &plan, best),
+        None => anyhow::bail!("no trial of `{sweep}` has reached anything yet; wait for its first results"),
+    }
+    Ok(())
 }
 
 fn value(number: Option<f64>) -> String {
