@@ -42,7 +42,8 @@ flags = dict(word.split("=", 1) for word in sys.argv[2:] if "=" in word)
 keys = dict(word[6:].split("=", 1) for word in sys.argv[2:] if word.startswith("--set="))
 folder = Path(flags.get("--run-dir", "."))
 if sys.argv[2] == "--draw":
-    sys.exit("error: nothing to draw" if "drawless" in os.environ else None)
+    print("a warning" if "drawless" not in os.environ else os.environ["drawless"], file=sys.stderr)
+    sys.exit("drawless" in os.environ)
 if sys.argv[1] == "sweep":
     text = Path(sys.argv[2]).read_text()
     if "gama" in text:
@@ -314,7 +315,7 @@ class RunTest(SweepCase):
 
     def test_a_trial_that_fails_or_misses_the_goal_is_a_result(self):
         self.write(trials=3, goal="steps until rollout/ep_rew_mean >= 1.3")
-        code, out, err = self.call(*self.words("--json"), FAILS="trial-2", drawless="1")
+        code, out, err = self.call(*self.words("--json"), FAILS="trial-2", drawless="error: nothing to draw")
         self.assertEqual(code, 0, err)
         rows = self.rows()
         self.assertEqual((rows[1]["exit"], rows[1]["state"], rows[1]["goal"]), ("3", "failed", ""))
@@ -324,8 +325,9 @@ class RunTest(SweepCase):
         self.assertEqual(int(rows[0]["goal"]) % 30, 0)
         self.root = self.folder / "far"
         self.write(trials=2, goal="steps until rollout/ep_rew_mean >= 9")
-        code, out, _ = self.call(*self.words("--json"))
+        code, out, _ = self.call(*self.words("--json"), drawless="")
         self.assertEqual((code, {row["state"] for row in self.rows()}), (0, {"not reached"}))
+        self.assertIn("the picture is missing: exit code 1", out)
         self.root = self.folder / "failed"
         code, _, err = self.call(*self.words("--trials", "1"), FAILS="trial-1")
         self.assertEqual((code, "all trials failed" in err), (1, True))

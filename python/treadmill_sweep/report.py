@@ -1,4 +1,4 @@
-"""Results of a sweep: a line for each trial, a table, the importance of keys, and `sweep.csv`."""
+"""Results of a sweep: a line for each trial, a table, the importance of keys, `sweep.csv`, and `sweep.png`."""
 
 import csv
 import json
@@ -44,18 +44,22 @@ def ended(sweep, trial):
 
 
 def draw(sweep):
-    """Lets the binary draw `sweep.png`."""
-    drawn, seeds = [], sweep.plan["seeds"]
-    for run in range(len(sweep.trials()) * seeds):
-        trial = sweep.trials()[run // seeds]
+    """Lets the binary draw `sweep.png`. Returns why it is missing, if so."""
+    drawn, seeds, trials = [], sweep.plan["seeds"], sweep.trials()
+    for run in range(len(trials) * seeds):
+        trial = trials[run // seeds]
         keys = [[key, shown(value)] for key, value in trial.params.items()]
         code = runs(trial).get(f"trial-{run + 1}", {}).get("exit")
         setting = {"setting": trial.number + 1, "keys": keys, "parent": None}
         drawn.append({"seed": sweep.plan["seed"] + run % seeds, "exit": code} | setting)
     path = sweep.root / "trials.json"
     path.write_text(json.dumps(sweep.plan | {"trials": drawn}))
-    done = subprocess.run([sweep.plan["treadmill"], "sweep", "--draw", path], capture_output=True, text=True)
-    return done.stderr.removeprefix("error: ").strip()
+    command = [sweep.plan["treadmill"], "sweep", "--draw", path]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    except (OSError, subprocess.TimeoutExpired) as why:
+        return str(why)
+    return done.returncode and (done.stderr.removeprefix("error: ").strip() or f"exit code {done.returncode}")
 
 
 def end(sweep, as_json):

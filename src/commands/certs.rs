@@ -78,7 +78,12 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
             write_bundle(folder, role, &bundles.join(role.name()))?;
         }
         for pool in pools(folder) {
-            write_bundle(&folder.join(POOLS).join(&pool), Role::Actor, &bundles.join(POOLS).join(&pool))?;
+            let own = folder.join(POOLS).join(&pool);
+            if pool_files(&own).iter().all(|file| file.exists()) {
+                write_bundle(&own, Role::Actor, &bundles.join(POOLS).join(&pool))?;
+            } else {
+                say(&format!("the pool {pool} lacks a file, so it gets no folder; --pool {pool} makes new ones"));
+            }
         }
         say(&format!("wrote a folder for each role and pool below {}", bundles.display()));
     }
@@ -113,16 +118,17 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<String>> {
     let old = pools(folder).filter(|_| args.renew);
     for pool in args.pool.iter().cloned().chain(old).collect::<BTreeSet<_>>() {
         let own = folder.join(POOLS).join(&pool);
-        let [certificate, key] = Credentials { folder: own.clone(), role: Role::Actor }.files();
-        if certificate.exists() && key.exists() && !args.renew {
+        let files = pool_files(&own);
+        if files.iter().all(|file| file.exists()) && !args.renew {
             continue;
         }
+        let [certificate, key, authority_copy] = files;
         fs::create_dir_all(&own).with_context(|| format!("cannot create the folder `{}`", own.display()))?;
         let name = Role::common_name_of_pool(&pool);
         let (text, private) = issue(Role::Actor, name, &[], args.days, &authority)?;
         let root = Credentials::authority(folder);
         let root = fs::read_to_string(&root).with_context(|| format!("cannot read `{}`", root.display()))?;
-        write(&Credentials::authority(&own), &root, 0o644)?;
+        write(&authority_copy, &root, 0o644)?;
         write(&key, &private, 0o600)?;
         write(&certificate, &text, 0o644)?;
         made.push(format!("the pool {pool}"));
@@ -130,9 +136,16 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<String>> {
     Ok(made)
 }
 
+/// Returns certificate, key and authority in the folder of a pool.
+fn pool_files(own: &Path) -> [PathBuf; 3] {
+    let [certificate, key] = Credentials { folder: own.to_path_buf(), role: Role::Actor }.files();
+    [certificate, key, Credentials::authority(own)]
+}
+
 /// Returns the names of the pools that have a folder.
 fn pools(folder: &Path) -> impl Iterator<Item = String> {
     let entries = fs::read_dir(folder.join(POOLS)).into_iter().flatten().flatten();
+    let entries = entries.filter(|entry| entry.path().is_dir());
     entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| pool_name(name).is_ok())
 }
 

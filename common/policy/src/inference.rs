@@ -5,7 +5,7 @@ use std::sync::Arc;
 use candle_core::{Device, Result, Tensor};
 use rayon::ThreadPool;
 
-use crate::{Mlp, NetworkShape, Networks, ParameterError, check_parameters, plain};
+use crate::{Mlp, NetworkShape, Networks, ParameterError, Prepared, check_parameters, plain};
 
 /// Rows per application of the networks on a GPU; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
@@ -16,9 +16,8 @@ pub struct Policy {
     networks: Networks,
     actor: Mlp,
     critic: Mlp,
-    parameters: Vec<f32>,
-    /// Parameters of actor and critic as their forward passes read them.
-    prepared: [Vec<f32>; 2],
+    /// Parameters of actor and critic.
+    prepared: [Prepared; 2],
     log_std: Vec<f32>,
     /// Threads that share many rows on a CPU.
     pool: Option<Arc<ThreadPool>>,
@@ -43,9 +42,12 @@ impl Policy {
         }
         let (actor, critic, log_std) =
             (networks.actor(), networks.critic(), networks.log_std(&parameters).into_owned());
-        let mut prepared = [const { Vec::new() }; 2];
-        [&actor, &critic].into_iter().zip(&mut prepared).for_each(|(mlp, prepared)| mlp.prepare(&parameters, prepared));
-        Ok(Self { networks, actor, critic, parameters, prepared, log_std, pool: None, on_gpu: None })
+        let prepared = [&actor, &critic].map(|network| {
+            let mut prepared = Prepared::default();
+            network.prepare(&parameters, &mut prepared);
+            prepared
+        });
+        Ok(Self { networks, actor, critic, prepared, log_std, pool: None, on_gpu: None })
     }
 
     /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
@@ -58,9 +60,10 @@ impl Policy {
         pool: Arc<ThreadPool>,
         device: &Device,
     ) -> std::result::Result<Self, ParameterError> {
+        let uploaded = (!device.is_cpu()).then(|| parameters.clone());
         let policy = Self::new(networks, parameters)?;
-        let upload = || Tensor::new(&policy.networks.dense(&policy.parameters)[..], device);
-        let on_gpu = if device.is_cpu() { None } else { Some(upload()?) };
+        let upload = |parameters: Vec<f32>| Tensor::new(&policy.networks.dense(&parameters)[..], device);
+        let on_gpu = uploaded.map(upload).transpose()?;
         Ok(Self { pool: Some(pool), on_gpu, ..policy })
     }
 
@@ -101,7 +104,7 @@ impl Policy {
     fn apply(
         &self,
         network: &Mlp,
-        prepared: &[f32],
+        prepared: &Prepared,
         observations: &[f32],
         rows: usize,
         output: &mut [f32],

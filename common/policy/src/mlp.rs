@@ -60,6 +60,10 @@ pub(crate) struct Reflected {
     pub(crate) output: Parts,
 }
 
+/// Parameters of one network as [`Mlp::forward`] reads them, see [`Mlp::prepare`].
+#[derive(Clone, Debug, Default)]
+pub struct Prepared(Vec<f32>);
+
 /// Numbers of one network over one chunk of rows: what the forward pass leaves for the backward pass.
 #[derive(Clone, Debug, Default)]
 pub struct Tape {
@@ -67,7 +71,8 @@ pub struct Tape {
     activations: Vec<f32>,
     /// Output of the forward pass, `[rows, output]`.
     output: Vec<f32>,
-    /// Gradient by the output of a layer. This and `below` change places, and only grow, so that nothing is filled twice.
+    /// Gradient by the output of a layer. This and `below` change places; they only grow, so that they are not filled before
+    /// each use.
     above: Vec<f32>,
     /// Gradient by the input of a layer, or even and odd parts of rows.
     below: Vec<f32>,
@@ -149,8 +154,8 @@ impl Mlp {
 
     /// Writes the network's part of the parameter vector `flat` as [`Self::forward`] reads it: each block is
     /// `[input, output]`, so that a product need not reorder it for every chunk of rows.
-    pub fn prepare(&self, flat: &[f32], prepared: &mut Vec<f32>) {
-        let parameters = &flat[self.range()];
+    pub fn prepare(&self, flat: &[f32], prepared: &mut Prepared) {
+        let (parameters, Prepared(prepared)) = (&flat[self.range()], prepared);
         prepared.resize(parameters.len(), 0.0);
         for layer in &self.layers {
             prepared[layer.bias.clone()].copy_from_slice(&parameters[layer.bias.clone()]);
@@ -162,7 +167,7 @@ impl Mlp {
     }
 
     /// Computes the tape's output from `inputs`, `[rows, columns]`, with what [`Self::prepare`] wrote.
-    pub fn forward(&self, prepared: &[f32], inputs: &[f32], columns: usize, tape: &mut Tape) {
+    pub fn forward(&self, Prepared(prepared): &Prepared, inputs: &[f32], columns: usize, tape: &mut Tape) {
         let Tape { activations, output, below, .. } = tape;
         let (last, hidden) = self.layers.split_last().expect("a network has at least one layer");
         let rows = inputs.len() / columns;
@@ -258,7 +263,7 @@ impl Mlp {
     /// [`Self::prepare`] wrote. The threads of `pool` share the rows, with the same results.
     pub fn evaluate(
         &self,
-        prepared: &[f32],
+        prepared: &Prepared,
         plane: &[f32],
         columns: usize,
         output: &mut [f32],

@@ -141,6 +141,28 @@ mod tests {
     }
 
     #[test]
+    fn the_number_of_threads_changes_neither_a_long_step_nor_its_norm() {
+        let count = 2 * PART + 7;
+        let wave = |factor: f32| -> Vec<f32> { (0..count).map(|i| (i as f32 * factor).sin()).collect() };
+        let (gradient, parameters) = (wave(0.37), wave(1.1));
+        let mut whole = (parameters.clone(), OptimiserState::new(count));
+        let (step_size, root_correction) = bias_corrections(1, 0.01);
+        let factors = Factors { scale: 0.5, step_size: step_size as f32, root_correction: root_correction as f32 };
+        adam(&mut whole.0, &gradient, &mut whole.1.first_moment, &mut whole.1.second_moment, &factors);
+        whole.1.step = 1;
+        let exact = gradient.iter().map(|g| f64::from(*g) * f64::from(*g)).sum::<f64>().sqrt();
+        let mut norms = Vec::new();
+        for threads in [1, 2, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+            let mut found = (parameters.clone(), OptimiserState::new(count));
+            pool.install(|| found.1.apply(&mut found.0, &gradient, 0.5, 0.01));
+            assert_eq!(found, whole, "{threads} threads");
+            norms.push(pool.install(|| global_norm(&gradient)));
+        }
+        assert!(norms[0] == norms[1] && norms[0] == norms[2] && (norms[0] - exact).abs() < 1e-9, "{norms:?} {exact}");
+    }
+
+    #[test]
     fn the_norm_is_that_of_the_whole_slice() {
         assert_eq!(global_norm(&[3.0, 4.0]), 5.0);
         assert!((global_norm(&[2.0; 100]) - 20.0).abs() < 1e-12);

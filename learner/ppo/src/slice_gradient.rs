@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{CHUNK_ROWS, Mlp, Networks, Tape};
+use treadmill_policy::{CHUNK_ROWS, Mlp, Networks, Prepared, Tape};
 
 use crate::{
     batch::Batch,
@@ -36,9 +36,8 @@ pub(crate) struct SliceGradient<'a> {
     gathered: Vec<f32>,
     actor: Mlp,
     critic: Mlp,
-    /// Parameters as the networks' forward passes read them.
-    actor_weights: Vec<f32>,
-    critic_weights: Vec<f32>,
+    actor_weights: Prepared,
+    critic_weights: Prepared,
     /// Most partial gradients per network.
     lanes_max: usize,
     actor_lanes: Vec<Lane>,
@@ -71,8 +70,8 @@ impl<'a> SliceGradient<'a> {
             gathered: Vec::new(),
             actor,
             critic,
-            actor_weights: Vec::new(),
-            critic_weights: Vec::new(),
+            actor_weights: Prepared::default(),
+            critic_weights: Prepared::default(),
             lanes_max,
             actor_lanes: Vec::new(),
             critic_lanes: Vec::new(),

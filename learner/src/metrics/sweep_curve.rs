@@ -125,7 +125,9 @@ fn draw_cost(cost: &GoalCost, area: &Area<'_>) -> Result<(), DrawError> {
 }
 
 fn draw_caption(caption: &str, area: &Area<'_>) -> Result<(), DrawError> {
-    let caption: String = caption.chars().take(CAPTION_CHARS_MAX).collect();
+    let is_long = caption.chars().count() > CAPTION_CHARS_MAX;
+    let shown: String = caption.chars().take(CAPTION_CHARS_MAX - usize::from(is_long)).collect();
+    let caption = if is_long { shown + "…" } else { shown };
     let style = font(20).color(&TITLE).pos(Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(caption, scaled(24, 26), style))
 }
