@@ -5,7 +5,7 @@ use std::sync::Arc;
 use candle_core::{Device, Result, Tensor};
 use rayon::ThreadPool;
 
-use crate::{Mlp, NetworkShape, Networks, ParameterError, Prepared, check_parameters, plain};
+use crate::{ForwardWeights, Mlp, NetworkShape, Networks, ParameterError, check_parameters, plain};
 
 /// Rows per application of the networks on a GPU; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
@@ -17,7 +17,7 @@ pub struct Policy {
     actor: Mlp,
     critic: Mlp,
     /// Parameters of actor and critic.
-    prepared: [Prepared; 2],
+    prepared: [ForwardWeights; 2],
     log_std: Vec<f32>,
     /// Threads that share many rows on a CPU.
     pool: Option<Arc<ThreadPool>>,
@@ -43,7 +43,7 @@ impl Policy {
         let (actor, critic, log_std) =
             (networks.actor(), networks.critic(), networks.log_std(&parameters).into_owned());
         let prepared = [&actor, &critic].map(|network| {
-            let mut prepared = Prepared::default();
+            let mut prepared = ForwardWeights::default();
             network.prepare(&parameters, &mut prepared);
             prepared
         });
@@ -104,7 +104,7 @@ impl Policy {
     fn apply(
         &self,
         network: &Mlp,
-        prepared: &Prepared,
+        prepared: &ForwardWeights,
         observations: &[f32],
         rows: usize,
         output: &mut [f32],

@@ -41,7 +41,7 @@ mod tensors;
 pub use candle_core::Error as TensorError;
 pub use inference::Policy;
 pub use mirror::{PolicyMirror, Reflection, mirror_indices};
-pub use mlp::{CHUNK_ROWS, Mlp, Prepared, Tape};
+pub use mlp::{CHUNK_ROWS, ForwardWeights, Mlp, Tape};
 pub use networks::Networks;
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{

@@ -62,7 +62,7 @@ pub(crate) struct Reflected {
 
 /// Parameters of one network as [`Mlp::forward`] reads them, see [`Mlp::prepare`].
 #[derive(Clone, Debug, Default)]
-pub struct Prepared(Vec<f32>);
+pub struct ForwardWeights(Vec<f32>);
 
 /// Numbers of one network over one chunk of rows: what the forward pass leaves for the backward pass.
 #[derive(Clone, Debug, Default)]
@@ -154,8 +154,8 @@ impl Mlp {
 
     /// Writes the network's part of the parameter vector `flat` as [`Self::forward`] reads it: each block is
     /// `[input, output]`, so that a product need not reorder it for every chunk of rows.
-    pub fn prepare(&self, flat: &[f32], prepared: &mut Prepared) {
-        let (parameters, Prepared(prepared)) = (&flat[self.range()], prepared);
+    pub fn prepare(&self, flat: &[f32], prepared: &mut ForwardWeights) {
+        let (parameters, ForwardWeights(prepared)) = (&flat[self.range()], prepared);
         prepared.resize(parameters.len(), 0.0);
         for layer in &self.layers {
             prepared[layer.bias.clone()].copy_from_slice(&parameters[layer.bias.clone()]);
@@ -167,7 +167,7 @@ impl Mlp {
     }
 
     /// Computes the tape's output from `inputs`, `[rows, columns]`, with what [`Self::prepare`] wrote.
-    pub fn forward(&self, Prepared(prepared): &Prepared, inputs: &[f32], columns: usize, tape: &mut Tape) {
+    pub fn forward(&self, ForwardWeights(prepared): &ForwardWeights, inputs: &[f32], columns: usize, tape: &mut Tape) {
         let Tape { activations, output, below, .. } = tape;
         let (last, hidden) = self.layers.split_last().expect("a network has at least one layer");
         let rows = inputs.len() / columns;
@@ -263,7 +263,7 @@ impl Mlp {
     /// [`Self::prepare`] wrote. The threads of `pool` share the rows, with the same results.
     pub fn evaluate(
         &self,
-        prepared: &Prepared,
+        prepared: &ForwardWeights,
         plane: &[f32],
         columns: usize,
         output: &mut [f32],

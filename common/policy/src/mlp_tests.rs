@@ -72,8 +72,8 @@ fn on_slices(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usiz
 }
 
 /// Returns the parameters of a network as its forward pass reads them.
-fn prepared(mlp: &Mlp, flat: &[f32]) -> Prepared {
-    let mut prepared = Prepared::default();
+fn prepared(mlp: &Mlp, flat: &[f32]) -> ForwardWeights {
+    let mut prepared = ForwardWeights::default();
     mlp.prepare(flat, &mut prepared);
     prepared
 }

@@ -2,7 +2,7 @@
 
 use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{Networks, Prepared, gaussian};
+use treadmill_policy::{ForwardWeights, Networks, gaussian};
 
 use crate::batch::{Batch, picked};
 
@@ -41,7 +41,7 @@ impl PolicyShift {
     pub(crate) fn divergence(&self, parameters: &[f32], pool: &ThreadPool) -> f64 {
         let mut means = vec![0.0; self.old_means.len()];
         let columns = self.networks.shape().observation;
-        let (actor, mut prepared) = (self.networks.actor(), Prepared::default());
+        let (actor, mut prepared) = (self.networks.actor(), ForwardWeights::default());
         actor.prepare(parameters, &mut prepared);
         actor.evaluate(&prepared, &self.observations, columns, &mut means, Some(pool));
         gaussian::kl_divergence(&self.old_means, &self.old_log_std, &means, &self.networks.log_std(parameters))

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{CHUNK_ROWS, Mlp, Networks, Prepared, Tape};
+use treadmill_policy::{CHUNK_ROWS, ForwardWeights, Mlp, Networks, Tape};
 
 use crate::{
     batch::Batch,
@@ -36,8 +36,8 @@ pub(crate) struct SliceGradient<'a> {
     gathered: Vec<f32>,
     actor: Mlp,
     critic: Mlp,
-    actor_weights: Prepared,
-    critic_weights: Prepared,
+    actor_weights: ForwardWeights,
+    critic_weights: ForwardWeights,
     /// Most partial gradients per network.
     lanes_max: usize,
     actor_lanes: Vec<Lane>,
@@ -70,8 +70,8 @@ impl<'a> SliceGradient<'a> {
             gathered: Vec::new(),
             actor,
             critic,
-            actor_weights: Prepared::default(),
-            critic_weights: Prepared::default(),
+            actor_weights: ForwardWeights::default(),
+            critic_weights: ForwardWeights::default(),
             lanes_max,
             actor_lanes: Vec::new(),
             critic_lanes: Vec::new(),
