@@ -150,11 +150,7 @@ pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value 
     })
 }
 
-/// Draws `sweep.png`.
-///
-/// # Errors
-/// If it cannot be written.
-pub(crate) fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) -> anyhow::Result<()> {
+fn draw(plan: &Plan, results: &SweepResults, settings: &[SettingResult]) -> anyhow::Result<()> {
     let SweepResults { root, goal, .. } = results;
     let curve = |found: &SettingResult| SweptCurve {
         name: keys_text(&plan.trials[found.trials[0]].keys),
