@@ -226,7 +226,7 @@ fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars, histor
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
         match history.figures {
             RunFigures::Tracking => obeyed(history),
-            RunFigures::Imitation => imitated(history),
+            RunFigures::Imitation => history.imitated.map(imitation),
             RunFigures::Distance => {
                 known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1)))
             }
@@ -246,10 +246,10 @@ fn obeyed(history: &History) -> Option<String> {
     Some(format!("errors {} m/s and {} rad/s", rounded(velocity, 2), rounded(yaw_rate, 2)))
 }
 
-/// Returns how a motion was done in the last evaluation; `None` before the first one.
-fn imitated(history: &History) -> Option<String> {
-    let [done, error_m] = history.imitated?;
-    Some(format!("{} % of the motion done, links off by {} cm", rounded(100.0 * done, 0), rounded(100.0 * error_m, 1)))
+/// Describes how a motion was done: the share that was done, and the mean error of the links (m).
+pub fn imitation([done_share, body_error_m]: [f64; 2]) -> String {
+    let (done, error_cm) = (rounded(100.0 * done_share, 0), rounded(100.0 * body_error_m, 1));
+    format!("{done} % of the motion done, links off by {error_cm} cm")
 }
 
 /// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends. Where the task
@@ -266,7 +266,7 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let returns = curve(|point| point.return_mean, None, 0, "")?;
     let moved = match history.figures {
         RunFigures::Tracking => obeyed(history),
-        RunFigures::Imitation => imitated(history),
+        RunFigures::Imitation => history.imitated.map(imitation),
         RunFigures::Distance => {
             Some(format!("distance {}", curve(|point| point.distance_m, history.best_m(), 1, " m")?))
         }

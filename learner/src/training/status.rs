@@ -69,6 +69,8 @@ impl Trainer {
             has_commands: reporting.history.figures == RunFigures::Tracking,
             velocity_error_mps: reporting.history.tracking_errors.map(|[velocity, _]| velocity),
             yaw_rate_error_radps: reporting.history.tracking_errors.map(|[_, yaw_rate]| yaw_rate),
+            done_share: reporting.history.imitated.map(|[done_share, _]| done_share),
+            body_error_m: reporting.history.imitated.map(|[_, error_m]| error_m),
             policy_lag_mean: reporting.lag_mean,
             resident_bytes: machine::resident_bytes(),
             accepted: counts.accepted,

@@ -64,6 +64,8 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         "velocity_mean_mps": run.velocity_mean_mps,
         "velocity_error_mps": run.velocity_error_mps,
         "yaw_rate_error_radps": run.yaw_rate_error_radps,
+        "done_share": run.done_share,
+        "body_error_m": run.body_error_m,
         "fall_fraction": run.fall_fraction,
         "accepted_bytes": run.accepted_bytes,
         "policy_lag_mean": run.policy_lag_mean,

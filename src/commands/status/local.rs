@@ -3,7 +3,10 @@
 use std::fs;
 
 use serde_json::json;
-use treadmill_learner::leadership::{Manifest, Status, read_manifest};
+use treadmill_learner::{
+    leadership::{Manifest, Status, read_manifest},
+    metrics::progress::imitation,
+};
 use treadmill_runtime::{numbers::thousands, run_lock::killed, words::quoted};
 use treadmill_store::Store;
 
@@ -51,6 +54,8 @@ fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json
             "return_mean": record.training_return,
             "best_distance_m": distance_m,
             "velocity_error_mps": record.velocity_error_mps,
+            "done_share": record.done_share,
+            "body_error_m": record.body_error_m,
             "fall_fraction": record.fall_fraction,
             "leader": leader.map(|leader| json!({"host": leader.host, "pid": leader.pid, "epoch": leader.epoch})),
         })
@@ -66,9 +71,10 @@ fn describe(record: &Record, resumed_by: &str, manifest: Option<&Manifest>, json
         }
         None => (record.state(), "no process trains it".to_string()),
     };
+    let imitated = record.done_share.zip(record.body_error_m).map(<[f64; 2]>::from);
     let moved = match (record.has_commands(), record.velocity_error_mps) {
         (true, error_mps) => format!("velocity error {} m/s", or_unknown(error_mps, 2)),
-        (false, _) => format!("best distance {} m", or_unknown(distance_m, 1)),
+        (false, _) => imitated.map_or_else(|| format!("best distance {} m", or_unknown(distance_m, 1)), imitation),
     };
     format!(
         "run `{}` is {state}: {who}\n  steps      {}\n  episodes   return {}, {moved}\n  \

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use treadmill_learner::metrics::table::format_number;
+use treadmill_learner::metrics::{progress::imitation, table::format_number};
 use treadmill_proto::{ActorStatus, Phase, PoolDemand, RunStatus};
 use treadmill_runtime::numbers::thousands;
 
@@ -73,12 +73,16 @@ fn line_of(run: &RunStatus) -> String {
     };
     add("return", run.return_mean, 0, "");
     add("length", run.length_mean, 0, "");
-    match run.has_commands {
-        true => {
+    match (run.has_commands, run.done_share) {
+        (true, _) => {
             add("velocity error", run.velocity_error_mps, 2, " m/s");
             add("yaw rate error", run.yaw_rate_error_radps, 2, " rad/s");
         }
-        false => add("distance", run.distance_mean_m, 1, " m"),
+        (false, Some(done)) => {
+            add("motion done", Some(100.0 * done), 0, " %");
+            add("links off by", run.body_error_m, 3, " m");
+        }
+        (false, None) => add("distance", run.distance_mean_m, 1, " m"),
     }
     add("falls", run.fall_fraction.map(|share| 100.0 * share), 0, " %");
     add("used", run.used_share.map(|share| 100.0 * share), 0, " %");
@@ -115,13 +119,14 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         if version.epoch > 0 { format!(", epoch {}", version.epoch) } else { String::new() }
     )?;
     if let Some(return_mean) = run.return_mean {
+        let imitated = run.done_share.zip(run.body_error_m).map(<[f64; 2]>::from);
         let moved = match (run.has_commands, run.velocity_error_mps, run.yaw_rate_error_radps) {
             (true, Some(velocity), Some(yaw_rate)) => format!("errors of {velocity:.2} m/s and {yaw_rate:.2} rad/s"),
             (true, ..) => "not evaluated yet".to_string(),
-            (false, ..) => {
+            (false, ..) => imitated.map(imitation).unwrap_or_else(|| {
                 let (distance_m, velocity_mps) = (run.distance_mean_m, run.velocity_mean_mps);
                 format!("{:.1} m at {:.2} m/s", distance_m.unwrap_or_default(), velocity_mps.unwrap_or_default())
-            }
+            }),
         };
         let length = run.length_mean.unwrap_or_default();
         let falls = run.fall_fraction.map(|share| format!(", {:.0} % fell", 100.0 * share)).unwrap_or_default();
@@ -220,4 +225,35 @@ pub fn fleet_rate(run: &RunStatus) -> f64 {
         .filter(|actor| actor.alive)
         .filter_map(|actor| actor.stats.as_ref().map(|stats| stats.env_steps_per_s))
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_kind_of_task_shows_its_own_figures() {
+        let walks = RunStatus {
+            return_mean: Some(310.0),
+            distance_mean_m: Some(4.0),
+            velocity_mean_mps: Some(0.5),
+            ..RunStatus::default()
+        };
+        let imitates = RunStatus { done_share: Some(0.95), body_error_m: Some(0.034), ..walks.clone() };
+        let obeys = RunStatus {
+            has_commands: true,
+            velocity_error_mps: Some(0.125),
+            yaw_rate_error_radps: Some(0.5),
+            ..walks.clone()
+        };
+        for (run, line, text) in [
+            (walks, "length", "4.0 m at 0.50 m/s"),
+            (imitates, "motion done 95 %, links off by 0.034 m", "95 % of the motion done, links off by 3.4 cm"),
+            (obeys, "velocity error 0.12 m/s, yaw rate error 0.50 rad/s", "errors of 0.12 m/s and 0.50 rad/s"),
+        ] {
+            let run = RunStatus { length_mean: Some(100.0), ..run };
+            let (in_a_line, paragraph) = (as_lines(std::slice::from_ref(&run)), as_text(&[run]));
+            assert!(in_a_line.contains(line) && paragraph.contains(text), "{in_a_line}\n{paragraph}");
+        }
+    }
 }

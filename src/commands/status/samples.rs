@@ -91,6 +91,7 @@ prop_compose! {
             parts: parts.into_iter().map(|(name, share)| PartTime { name, share }).collect(),
             waits_for_storage: known, has_commands: known, fall_fraction: known.then_some(floats[1]),
             velocity_error_mps: known.then_some(floats[6]), yaw_rate_error_radps: known.then_some(floats[7]),
+            done_share: known.then_some(floats[8]), body_error_m: known.then_some(floats[9]),
             pool: known.then(|| PoolDemand {
                 run: "walk-1".to_string(), share: floats[0].abs().min(1000.0), envs: pid, envs_target: counts[0] as u32,
                 envs_max: u32::MAX, pool_envs: counts[1] as u32, pool_actors: counts[2] as u32, ..PoolDemand::default()

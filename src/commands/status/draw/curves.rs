@@ -27,7 +27,7 @@ const WIDE: u16 = 120;
 pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let is_wide = area.width >= WIDE;
-    let [first, second] = if let Some([done, error]) = imitated(run) {
+    let [first, second] = if let Some([done, error]) = imitated(status) {
         [(DONE_SHARE, format!("done {done} of the motion")), (BODY_ERROR, format!("error {error} m"))]
     } else if status.has_commands {
         let [velocity, yaw_rate] = errors(status);
@@ -52,9 +52,8 @@ pub fn draw(frame: &mut Frame, area: Rect, run: &Run) {
 }
 
 /// Returns how a motion was done in the last evaluation, if the run imitates one.
-fn imitated(run: &Run) -> Option<[String; 2]> {
-    let last = |tag| run.curve(tag).points().last().map(|(_, value)| number(value));
-    Some([last(DONE_SHARE)?, last(BODY_ERROR)?])
+fn imitated(status: &RunStatus) -> Option<[String; 2]> {
+    Some([number(status.done_share?), number(status.body_error_m?)])
 }
 
 /// Returns the errors of the velocity and the yaw rate.
@@ -100,7 +99,7 @@ pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
     pieces.push(format!("return {}", known(status.return_mean)), STRONG);
-    if let Some([done, error]) = imitated(run) {
+    if let Some([done, error]) = imitated(status) {
         pieces.push(format!("{done} done, error {error} m"), STRONG);
     } else if status.has_commands {
         let [velocity, yaw_rate] = errors(status);
