@@ -89,9 +89,12 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("sim2sim", SIM2SIM),
 ];
 
-/// Returns that fade over 67 steps, a second, and growing batches: 67, 67 and 54 m after 3 M steps, where the defaults
-/// reach 48, 63 and 45 m after 4 M. Without growing batches more policies fall (`experiments/learning/search.csv`).
-const WALK: &str = "[ppo]\ngamma = 0.985\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n";
+/// Returns that fade over 67 steps, a second, and growing batches; without these, more policies fall
+/// (`experiments/learning/search.csv`). Starts have four times the noise of Gymnasium: in a symmetric state an equivariant
+/// policy acts symmetrically, and one that learnt to start with the noise of actions falls without it
+/// (`experiments/learning/walk_starts.csv`).
+const WALK: &str =
+    "[env]\nreset_noise_scale = 0.04\n[ppo]\ngamma = 0.985\ngae_lambda = 0.9\nbatch_growth_steps = 1000000\n";
 
 /// Assumed differences between two simulators of the same humanoid.
 const SIM2SIM: &str = "\

@@ -7,10 +7,9 @@ use treadmill_humanoid::{
     config::ChosenTask,
     model::{HingeControl, Robot},
     task::{
-        motion::{MOTION_OBSERVATION, MotionTerm},
-        velocity::{
-            ACTION_MAX, Calm, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS, TermRow,
-        },
+        motion::MOTION_OBSERVATION,
+        term::{Shown, TermRow},
+        velocity::{ACTION_MAX, Calm, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND, TERMS},
     },
 };
 use treadmill_policy::onnx::ForController;
@@ -275,24 +274,24 @@ fn lists(joints: &[Joint]) -> Value {
 /// Returns the terms of one observation of the policy, the newest of its history.
 fn terms(environment: &Environment) -> anyhow::Result<Vec<Term>> {
     let of_policy: Vec<_> = environment.terms().iter().filter(|term| !term.is_privileged).collect();
-    let unknown = |name: &str| format!("the policy observes `{name}`, which is no term of the task");
-    if environment.config().env.chosen_task() == ChosenTask::Motion {
-        let of_motion = |term: &&ObservationTerm| {
-            let row =
-                MOTION_OBSERVATION.iter().find(|row| row.name == term.name).with_context(|| unknown(&term.name))?;
-            let MotionTerm { name, unit, frame, .. } = *row;
-            Ok(Term { name, mjlab_name: name, unit, frame, deploy_params: String::new(), size: term.range.len() })
-        };
-        return of_policy.iter().map(of_motion).collect();
+    let config = environment.config();
+    match config.env.chosen_task() {
+        ChosenTask::Motion => described(MOTION_OBSERVATION, &of_policy, config),
+        _ => described(TERMS, &of_policy[..of_policy.len() / config.velocity.history as usize], config),
     }
-    of_policy[..of_policy.len() / environment.config().velocity.history as usize]
-        .iter()
-        .map(|term| {
-            let row = TERMS.iter().find(|row| row.name == term.name);
-            let row = row.with_context(|| unknown(&term.name))?;
-            let TermRow { name, mjlab_name, unit, frame, .. } = *row;
-            let deploy_params = (row.deploy_params)(&environment.config().velocity);
-            Ok(Term { name, mjlab_name, unit, frame, deploy_params, size: term.range.len() })
-        })
-        .collect()
+}
+
+/// Returns what a table says of these terms.
+fn described<S: Shown>(
+    table: &[TermRow<S>],
+    terms: &[&ObservationTerm],
+    config: &EnvironmentConfig,
+) -> anyhow::Result<Vec<Term>> {
+    let of_term = |term: &&ObservationTerm| {
+        let row = table.iter().find(|row| row.name == term.name);
+        let row = row.with_context(|| format!("the policy observes `{}`, which is no term of the task", term.name))?;
+        let TermRow { name, mjlab_name, unit, frame, .. } = *row;
+        Ok(Term { name, mjlab_name, unit, frame, deploy_params: (row.deploy_params)(config), size: term.range.len() })
+    };
+    terms.iter().map(of_term).collect()
 }

@@ -7,11 +7,13 @@
 //! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
 //! - [`motion`]: imitation of motions.
 //! - `registry`: builds the task that a configuration selects, also those of the program that uses this crate.
+//! - [`term`]: tables of observations.
 //! - [`velocity`]: walking at commanded velocities.
 
 mod humanoid;
 pub mod motion;
 mod registry;
+pub mod term;
 pub mod velocity;
 
 use std::any::Any;

@@ -22,11 +22,12 @@ use std::sync::Arc;
 use rand::RngExt;
 
 pub use self::links::Compared;
-pub use self::observation::{MOTION_OBSERVATION, MotionTerm};
-use self::observation::{MotionLayout, MotionView};
+pub use self::observation::MOTION_OBSERVATION;
+use self::observation::MotionView;
 use self::reference::Reference;
 pub use self::rewards::MotionErrors;
 use self::rewards::MotionStep;
+use super::term::Layout;
 use super::velocity::ACTION_MAX;
 use super::{EpisodeStart, ObservationTerm, Step, StepEvaluation, Task, servos};
 use crate::config::{EnvironmentConfig, MOTION_TERMS, MotionConfig, MotionRewards};
@@ -45,7 +46,7 @@ const TURNED_MAX_RAD: f64 = 1e-3;
 pub struct MotionTask {
     config: MotionConfig,
     reference: Arc<Reference>,
-    layout: MotionLayout,
+    layout: Layout<MotionTask>,
     encoder_bias_rad: f64,
     in_training: bool,
     /// For each motor: hinge, default control and control per unit of action.
@@ -93,7 +94,7 @@ impl MotionTask {
         let in_anchor = |link: &usize| anchor.inverse() * physics.link_pose(*link).rotation;
         let turned = physics.body_motion(0).pose.rotation.inverse() * anchor;
         Ok(Self {
-            layout: MotionLayout::new(&config.motion, &reference.compared, motors.len()),
+            layout: observation::layout(config, &reference.compared, motors.len()),
             config: config.motion.clone(),
             encoder_bias_rad: config.randomisation.encoder_bias_rad,
             in_training: config.has_curricula,
@@ -242,11 +243,15 @@ impl Task for MotionTask {
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
-        MotionView::new(self, physics).write(noise, observation);
+        let (seen, hidden) = observation.split_at_mut(self.layout.of_policy());
+        let view = MotionView::new(self, physics);
+        self.layout.write(&view, false, noise, seen);
+        self.layout.write(&view, true, noise, hidden);
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
-        self.layout.mirrored(&self.reference.compared, robot).filter(|_| self.has_mirror)
+        let image = |part| observation::image(part, &self.reference.compared, robot);
+        self.layout.mirrored(image).filter(|_| self.has_mirror)
     }
 
     fn save(&self) -> Vec<f64> {

@@ -30,14 +30,15 @@ use self::command::Drawn;
 pub use self::command::{Command, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
-use self::observation::{Layout, View};
-pub use self::observation::{TERMS, TermRow};
+pub use self::observation::TERMS;
+use self::observation::VelocityView;
 use self::rewards::pose_weights;
 pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 pub use self::standing::Calm;
 use self::standing::Standing;
+use super::term::Layout;
 use super::{Difficulty, EpisodeStart, ObservationTerm, Reached, Step, StepEvaluation, Task, servos};
 pub use crate::config::HEADING_GAIN;
 use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
@@ -63,7 +64,7 @@ pub struct VelocityTask {
     max_episode_steps: u32,
     step_s: f64,
     encoder_bias_rad: f64,
-    layout: Layout,
+    layout: Layout<VelocityTask>,
     body: Stance,
     /// Links of the left and the right foot, and their heights in the default pose (m).
     feet_links: [usize; FEET],
@@ -132,7 +133,7 @@ impl VelocityTask {
             // It starts on ground at height 0.
             Some(_) => Foot::origin_m(physics, feet_links[foot]).z,
         };
-        let layout = Layout::new(config, motors.len());
+        let layout = observation::layout(config, motors.len());
         let mut task = Self {
             feet_standing_m: std::array::from_fn(standing),
             ground,
@@ -335,9 +336,9 @@ impl Task for VelocityTask {
             self.standing = self.standing.after(self.command.stands(), self.is_disturbed(physics));
         }
         self.observed = (self.command, self.rested_s().is_some());
-        let view = View::new(self, physics);
-        view.write_frame(false, noise, &mut seen[newest..]);
-        view.write_frame(true, noise, hidden);
+        let view = VelocityView::new(self, physics);
+        self.layout.write(&view, false, noise, &mut seen[newest..]);
+        self.layout.write(&view, true, noise, hidden);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {
                 seen.copy_within(newest.., row * width);
@@ -367,7 +368,7 @@ impl Task for VelocityTask {
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
-        Some(self.layout.mirrored(robot))
+        self.layout.mirrored(|part| Some(observation::image(part, robot)))
     }
 
     fn difficulty(&self) -> Difficulty {
