@@ -1,6 +1,7 @@
 //! Values that a key may take in a sweep.
 
 use rand::RngExt;
+use serde_json::json;
 use toml::{Table, Value};
 use treadmill_config::{ConfigSource, given_value};
 use treadmill_runtime::seeds::Stream;
@@ -91,6 +92,25 @@ impl KeyRange {
             }
             Self::Integers(ends) => ends.map(Value::Integer).to_vec(),
             Self::Choices(choices) => choices.clone(),
+        }
+    }
+
+    /// Returns kind and values as a study has them: of choices the TOML notation, because lists are no values there.
+    pub(crate) fn as_of_study(&self) -> (&'static str, serde_json::Value) {
+        match self {
+            Self::Uniform(ends, _) => ("uniform", json!(ends)),
+            Self::LogUniform(ends, _) => ("log_uniform", json!(ends)),
+            Self::Integers(ends) => ("integers", json!(ends)),
+            Self::Choices(choices) => ("choices", choices.iter().map(Value::to_string).collect()),
+        }
+    }
+
+    /// Returns a value that a study proposes, in TOML notation; nothing if it has another kind.
+    pub(crate) fn proposed(&self, value: &serde_json::Value) -> Option<String> {
+        match self {
+            Self::Uniform(ends, _) | Self::LogUniform(ends, _) => Some(number(value.as_f64()?, ends)),
+            Self::Integers(_) => Some(value.as_i64()?.to_string()),
+            Self::Choices(_) => value.as_str().map(str::to_string),
         }
     }
 
