@@ -71,7 +71,8 @@ class Study:
     def report(self, trial, step, value):
         """Returns whether a trial with this value is hopeless."""
         self.trials[trial].report(value, step)
-        return {"prune": self.trials[trial].should_prune()}
+        # Of NumPy, which JSON does not know.
+        return {"prune": bool(self.trials[trial].should_prune())}
 
     def end(self, trial, state, value):
         """Records the result of a trial."""

@@ -60,10 +60,10 @@ pub struct SweepArgs {
     /// Seeds of each setting, from --seed on; 3 without a search file.
     #[arg(long, value_name = "N")]
     seeds: Option<usize>,
-    /// Settings that a search tries, or members of a population. With --resume, a search by Optuna tries more.
+    /// Settings to try, or members of a population; with --resume, more of a search by Optuna.
     #[arg(long, value_name = "N")]
     trials: Option<usize>,
-    /// Database of Optuna's study; by default sqlite:///DIR/study.db in the sweep's folder.
+    /// Database of Optuna; by default study.db in the sweep's folder.
     #[arg(long, value_name = "URL", requires = "file")]
     storage: Option<String>,
     /// Trials at once; by default one per core.
@@ -139,7 +139,7 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let proposer = search.sampler().map(Proposer::start).transpose()?;
     let is_new = opened.is_none();
     let folder = opened.map_or_else(|| SweepFolder::create(args.new.run_dir.as_deref()), Ok)?;
-    let open = |proposer| Study::open(proposer, &folder, (&plan, is_new), &search, &goal);
+    let open = |proposer| Study::open(proposer, &folder, &plan, is_new, &search, &goal);
     let mut study = proposer.map(open).transpose()?;
     folder.save(&plan)?;
     let mut results = SweepResults::of_ended(folder.root(), &plan, &goal, search.interval_steps().is_some());

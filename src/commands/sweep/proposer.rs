@@ -34,7 +34,8 @@ impl Proposer {
         command.args(["-m", "treadmill_sweep", "--serve"]).stdin(Stdio::piped()).stdout(Stdio::piped());
         // Ctrl-C reaches only the sweep, which asks for more afterwards.
         let child = command.process_group(0).spawn();
-        let mut child = child.with_context(|| format!("`{python}` cannot be started; name a Python by {PYTHON}"))?;
+        let mut child =
+            child.map_err(|why| Usage(format!("`{python}` cannot be started ({why}); name a Python by {PYTHON}")))?;
         let (Some(requests), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
             anyhow::bail!("`{python}` has no standard input and output");
         };

@@ -293,6 +293,13 @@ mod tests {
     #[test]
     fn entries_fit_the_strategy() {
         let key = "keys.ppo.gamma = { uniform = [0.9, 1] }";
+        for (text, strategy) in [
+            ("pruner = 'none'", Strategy::Random),
+            ("pruner = 'median'", Strategy::Optuna { sampler: "random", pruner: "median" }),
+            ("strategy = 'cmaes'", Strategy::Optuna { sampler: "cmaes", pruner: "none" }),
+        ] {
+            assert_eq!(read(&format!("{text}\n{key}")).unwrap().strategy, strategy, "{text}");
+        }
         for (text, part) in [
             ("strategy = 'annealing'".to_string(), "\"population\""),
             (format!("strategy = 'tpe'\npruner = 'halving'\n{key}"), "`pruner` is \"halving\""),

@@ -235,6 +235,28 @@ mod tests {
     }
 
     #[test]
+    fn a_study_gets_ranges_and_proposes_values() {
+        for (key, text, kind, values, proposed, text_of_it) in [
+            ("ppo.gamma", "uniform = [0.9, 1]", "uniform", json!([0.9, 1.0]), json!(0.912_345_678), "0.912346"),
+            ("ppo.learning_rate", "log_uniform = [0.1, 1]", "log_uniform", json!([0.1, 1.0]), json!(1), "1.0"),
+            ("ppo.epochs", "integers = [2, 4]", "integers", json!([2, 4]), json!(3), "3"),
+            (
+                "policy.hidden",
+                "choices = [[8], [8, 4]]",
+                "choices",
+                json!(["[8]", "[8, 4]"]),
+                json!("[8, 4]"),
+                "[8, 4]",
+            ),
+        ] {
+            let range = range(key, text).unwrap();
+            assert_eq!(range.as_of_study(), (kind, values), "{key}");
+            assert_eq!(range.proposed(&proposed), Some(text_of_it.to_string()), "{key}");
+            assert_eq!(range.proposed(&json!(null)), None, "{key}");
+        }
+    }
+
+    #[test]
     fn perturbed_numbers_move_by_a_factor_or_are_drawn_anew() {
         let rate = range("ppo.learning_rate", "uniform = [1e-5, 1e-3]").unwrap();
         let epochs = range("ppo.epochs", "integers = [2, 4]").unwrap();

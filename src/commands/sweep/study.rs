@@ -45,7 +45,8 @@ impl<'a> Study<'a> {
     pub(crate) fn open(
         proposer: Proposer,
         folder: &'a SweepFolder,
-        (plan, is_new): (&Plan, bool),
+        plan: &Plan,
+        is_new: bool,
         search: &'a SweepSearch,
         goal: &'a Goal,
     ) -> anyhow::Result<Self> {
@@ -113,7 +114,8 @@ impl<'a> Study<'a> {
             setting.logs.iter_mut().try_for_each(|log| log.read(self.goal)).context("a log cannot be read")?;
             let step = setting.logs.iter().map(|log| log.step).min().unwrap_or_default();
             let has_end = self.goal.is_value() || !setting.logs.iter().all(FollowedLog::has_reached);
-            while !plan.trials[trials.start].is_pruned && setting.reported + interval < plan.steps.min(step) {
+            let is_pruned = |plan: &Plan| plan.trials[trials.clone()].iter().any(|trial| trial.is_pruned);
+            while !is_pruned(plan) && setting.reported + interval < plan.steps.min(step) {
                 setting.reported += interval;
                 let values: Option<Vec<f64>> = setting.logs.iter().map(|log| log.at(setting.reported)).collect();
                 let Some(values) = values else { continue };
@@ -121,10 +123,14 @@ impl<'a> Study<'a> {
                     "call": "report", "trial": setting.number, "step": setting.reported, "value": mean(&values),
                 });
                 let answer = request(&mut self.proposer, &report)?;
+                if answer["prune"] != true || !has_end {
+                    continue;
+                }
                 // One that has all its steps only reports, because others are compared with it.
-                if answer["prune"] == true && has_end && step < plan.steps {
-                    plan.trials[trials.clone()].iter_mut().for_each(|trial| trial.is_pruned = true);
-                    hopeless.extend(trials.clone());
+                for (index, log) in trials.clone().zip(&setting.logs) {
+                    let trial = &mut plan.trials[index];
+                    trial.is_pruned = trial.exit.is_none() && log.step < plan.steps;
+                    hopeless.extend(trial.is_pruned.then_some(index));
                 }
             }
         }
@@ -146,7 +152,7 @@ impl<'a> Study<'a> {
         let reached: Option<Vec<f64>> =
             self.trials(number).map(|index| self.goal.reached(&self.folder.trial(index))).collect();
         let (state, value) = match reached {
-            _ if trials[0].is_pruned => ("PRUNED", None),
+            _ if trials.iter().any(|trial| trial.is_pruned) => ("PRUNED", None),
             _ if trials.iter().any(|trial| trial.exit != Some(0)) => ("FAIL", None),
             Some(reached) => ("COMPLETE", Some(mean(&reached))),
             // Samplers rank it by what it misses.
