@@ -1,1 +1,1 @@
-"""Searches hyperparameters of `treadmill train` with Optuna, which proposes settings and ends hopeless trials."""
+"""Proposes settings to `treadmill sweep` with Optuna, which samples them and ends hopeless trials."""

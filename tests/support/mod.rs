@@ -5,6 +5,7 @@ pub mod motion;
 mod process;
 
 use std::{
+    collections::BTreeMap,
     fmt::Debug,
     fs,
     net::TcpListener,
@@ -259,6 +260,14 @@ pub fn last_json(output: &Output) -> Value {
 /// Returns the JSON objects of a file, one per line.
 pub fn json_lines(file: &Path) -> Vec<Value> {
     fs::read_to_string(file).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Returns the rows of a table, each by the names of its columns.
+pub fn csv_rows(file: &Path) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(file).unwrap();
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let cells = |line: &str| names.iter().map(ToString::to_string).zip(line.split(',').map(str::to_string)).collect();
+    text.lines().skip(1).map(cells).collect()
 }
 
 /// Returns the numbers of a JSON list.

@@ -1,6 +1,6 @@
 //! Sweeps: several seeds or settings, each trial a run of its own.
 
-use std::{collections::BTreeMap, fs, path::Path, process::Command};
+use std::{fs, path::Path, process::Command};
 
 use crate::support::*;
 
@@ -12,17 +12,9 @@ fn search(folder: &Path, text: &str) {
     fs::write(folder.join("search.toml"), text).unwrap();
 }
 
-/// Returns the rows of a table in a sweep's folder, each by the names of its columns.
-fn rows(folder: &Path, file: &str) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(folder.join("S").join(file)).unwrap();
-    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-    let cells = |line: &str| names.iter().map(ToString::to_string).zip(line.split(',').map(str::to_string)).collect();
-    text.lines().skip(1).map(cells).collect()
-}
-
 /// Returns a column of `sweep.csv`.
 fn column(folder: &Path, name: &str) -> Vec<String> {
-    rows(folder, "sweep.csv").into_iter().map(|row| row[name].clone()).collect()
+    csv_rows(&folder.join("S/sweep.csv")).into_iter().map(|row| row[name].clone()).collect()
 }
 
 #[test]
@@ -51,6 +43,7 @@ fn seeds_are_runs_that_are_compared() {
     assert!(stdout(&done(folder.path(), &["runs", "S"])).contains("trial-2"));
     assert_usage(folder.path(), &args, &["already holds a sweep", "`treadmill sweep --resume S`"]);
     assert_usage(folder.path(), &["sweep", "--resume", "S", "--steps", "9"], &["--parallel"]);
+    assert_usage(folder.path(), &["sweep", "--resume", "S", "--trials", "9"], &["--trials", "Optuna"]);
     assert_usage(folder.path(), &["sweep", "--resume", "none"], &["no sweep at `none`"]);
     // All trials have ended.
     assert!(stdout(&done(folder.path(), &["sweep", "--resume", "S"])).contains("Best: S/trial-"));
@@ -83,6 +76,7 @@ fn a_grid_goes_on_after_a_trial_that_fails() {
     let args = ["sweep", "search.toml", "--preset", "smoke", "--steps", "2048", "--run-dir", "S", "--parallel", "2"];
     let text = stdout(&done(folder.path(), &args));
     assert_eq!(column(folder.path(), "exit"), ["2", "0"]);
+    assert_eq!(column(folder.path(), "state"), ["failed", "complete"]);
     assert_eq!(column(folder.path(), "rollout.envs"), ["65536", "8"]);
     for part in ["failed with exit code 2: ", "a fragment holds at most", "Best: S/trial-2"] {
         assert!(text.contains(part), "`{part}` is missing in {text}");
@@ -120,6 +114,13 @@ fn a_search_is_checked_before_anything_starts() {
         &["`rollout.envs` is set by another flag too"],
     );
     assert_usage(folder.path(), &["sweep", "--trials", "3"], &["FILE"]);
+    let storage = ["--storage", "sqlite:///study.db"];
+    assert_usage(folder.path(), &[&args[..], &storage].concat(), &["--storage", "Optuna"]);
+    search(folder.path(), "pruner = 'median'\n[keys]\nrollout.envs = { integers = [8, 64] }\n");
+    let output = treadmill(folder.path()).args(args).env("TREADMILL_PYTHON", "false").output().unwrap();
+    assert_refused(&output, 2, &["`treadmill_sweep` is missing", "pip install \"./python[sweep]\""]);
+    let output = treadmill(folder.path()).args(args).env("TREADMILL_PYTHON", "no-python").output().unwrap();
+    assert_refused(&output, 2, &["`no-python` cannot be started", "TREADMILL_PYTHON"]);
     assert!(!folder.path().join("S").exists());
 }
 
@@ -171,7 +172,7 @@ fn the_best_of_a_population_descends_by_a_schedule_that_gives_it_anew() {
     );
     let args = [&["sweep", "search.toml", "--steps", "9000", "--run-dir", "S"][..], &SMALL].concat();
     done(folder, &args);
-    let lineage = rows(folder, "lineage.csv");
+    let lineage = csv_rows(&folder.join("S/lineage.csv"));
     let steps: Vec<&str> = lineage.iter().map(|row| row["env_steps"].as_str()).collect();
     assert_eq!(steps, ["0", "0", "0", "0", "3072", "6144"], "one fork after each interval but the last");
     assert!(lineage[4]["parent"] != "5" && lineage[5]["seed"] == "6", "{lineage:#?}");

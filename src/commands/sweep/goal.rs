@@ -74,6 +74,20 @@ impl Goal {
         !matches!(self.kind, GoalKind::Until { .. })
     }
 
+    /// Returns the direction of what is best, by Optuna's name.
+    pub(crate) fn direction(&self) -> &'static str {
+        if self.kind == GoalKind::Highest { "maximize" } else { "minimize" }
+    }
+
+    /// Returns what pruners compare of a value of the metric: it, or by how much it misses the number.
+    pub(crate) fn compared(&self, value: f64) -> f64 {
+        match self.kind {
+            GoalKind::Highest | GoalKind::Lowest => value,
+            GoalKind::Until { at_least: true, number, .. } => number - value,
+            GoalKind::Until { number, .. } => value - number,
+        }
+    }
+
     /// Returns what a run has reached; `None` if it has not.
     pub(crate) fn reached(&self, run: &Path) -> Option<f64> {
         let file = File::open(run.join("metrics.jsonl")).ok()?;
@@ -82,11 +96,7 @@ impl Goal {
         let _ = for_each_metric(file, |metric, _| {
             if metric.tag == self.tag {
                 last = Some(metric.value);
-                let is_there = match self.kind {
-                    GoalKind::Until { at_least: true, number, .. } => metric.value >= number,
-                    GoalKind::Until { number, .. } => metric.value <= number,
-                    _ => false,
-                };
+                let is_there = !self.is_value() && self.compared(metric.value) <= 0.0;
                 first_step = first_step.or(is_there.then_some(metric.step));
             }
             if metric.tag == "time/time_elapsed" {

@@ -2,53 +2,52 @@
 //!
 //! # Layout
 //! - What is tried: [`search`] (the file), [`space`] (values of a key), [`goal`] (what trials are compared by).
-//! - [`plan`]: trials and what has become of them, as a file.
+//! - [`planning`]: checks a new sweep; [`plan`]: trials and what has become of them, as a file.
 //! - [`trials`]: runs them; [`population`]: lets the worst fork the best.
+//! - [`study`]: lets Optuna propose settings and end hopeless ones, through [`proposer`], by what [`followed_log`] reads.
 //! - [`results`]: what was reached; [`report`]: lines, tables, CSV and picture.
 
+mod followed_log;
 mod goal;
 mod plan;
+mod planning;
 mod population;
+mod proposer;
 mod report;
 mod results;
 mod search;
 mod space;
+mod study;
 mod trials;
 
-use std::{fs, path::PathBuf};
+use std::{collections::BTreeMap, path::PathBuf};
 
-use anyhow::Context;
-use clap::{Arg, ArgAction, Args, parser::ValueSource};
-use treadmill_bus::Role;
-use treadmill_config::{Config, ConfigSource, given_value};
+use clap::{Arg, Args};
 use treadmill_humanoid::TaskRegistry;
-use treadmill_ppo::BatchSize;
-use treadmill_runtime::{machine, shutdown::Shutdown, words::quoted};
+use treadmill_runtime::{shutdown::Shutdown, words::quoted};
 
 use self::{
     goal::Goal,
     plan::{Plan, SweepFolder},
+    proposer::Proposer,
     results::SweepResults,
     search::SweepSearch,
+    study::Study,
     trials::{Ended, TrialRunner},
 };
 use crate::{
-    commands::check::machine::{ACTOR_BYTES, LEARNER_BYTES},
     launch::{
-        async_runtime, begin,
+        async_runtime,
         exit_code::Usage,
         output::say,
-        prepared::{self, Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs, OwnActorsArgs},
         signals,
     },
-    shared::{existing_file::existing_file, network_args::NetworkArgs},
+    shared::existing_file::existing_file,
 };
 
 /// Seeds without a search file: two runs can agree by chance.
 const SEEDS: usize = 3;
-/// Most wrong settings that a message names.
-const WRONG_MAX: usize = 5;
 /// Flags that are the sweep's own, or mean something else here than for a trial.
 const OWN_FLAGS: [&str; 7] = ["resume", "resume_or_start", "run_dir", "seed", "store", "no_progress", "json"];
 
@@ -61,9 +60,12 @@ pub struct SweepArgs {
     /// Seeds of each setting, from --seed on; 3 without a search file.
     #[arg(long, value_name = "N")]
     seeds: Option<usize>,
-    /// Settings that a random search draws, or members of a population.
-    #[arg(long, value_name = "N", requires = "file")]
+    /// Settings to try, or members of a population; with --resume, more of a search by Optuna.
+    #[arg(long, value_name = "N")]
     trials: Option<usize>,
+    /// Database of Optuna; by default study.db in the sweep's folder.
+    #[arg(long, value_name = "URL", requires = "file")]
+    storage: Option<String>,
     /// Trials at once; by default one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
     parallel: Option<u64>,
@@ -79,12 +81,6 @@ pub struct SweepArgs {
     /// Print the schedule of the best line of this sweep, as commands.
     #[arg(long, value_name = "SWEEP", exclusive = true)]
     schedule: Option<String>,
-    /// Check everything, print the plan as JSON and begin nothing, for programs that run the trials themselves.
-    #[arg(long, hide = true)]
-    plan: bool,
-    /// Draw `sweep.png` beside this plan, whose trials another program ran.
-    #[arg(long, value_name = "PLAN", hide = true, exclusive = true)]
-    draw: Option<PathBuf>,
     #[command(flatten)]
     new: NewRunArgs,
     #[command(flatten)]
@@ -112,75 +108,56 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     if let Some(sweep) = &args.schedule {
         return report::print_best_schedule(sweep);
     }
-    if let Some(plan) = &args.draw {
-        return report::draw_plan(plan);
-    }
-    let flags = train_flags();
+    let flags = planning::train_flags();
     let begun = args.new.run_dir.as_deref().filter(|root| args.any.resume_or_start && SweepFolder::is_sweep(root));
-    let (folder, mut plan) = match (&args.any.resume, begun) {
+    let (opened, mut plan) = match (&args.any.resume, begun) {
         (Some(sweep), _) => {
             let has_others = args.file.is_some() || args.seeds.is_some() || args.new.seed.is_some();
             if has_others || args.new.run_dir.is_some() || !flags.is_empty() || !args.connect.is_empty() {
-                let why = "--resume: a sweep keeps its flags; give only --parallel and --json with it";
+                let why =
+                    "--resume: a sweep keeps its flags; give only --parallel, --json, and --trials of Optuna with it";
                 return Err(Usage(why.to_string()).into());
             }
-            SweepFolder::open(sweep)?
+            let (folder, mut plan) = SweepFolder::open(sweep)?;
+            if let Some(trials) = args.trials {
+                planning::add_trials(&mut plan, trials)?;
+            }
+            (Some(folder), plan)
         }
         (None, Some(root)) => {
             let (folder, plan) = SweepFolder::open(&root.display().to_string())?;
-            if plan.flags != flags {
-                let (own, root) = (plan.flags.join(" "), root.display());
-                return Err(
-                    Usage(format!("`{root}` holds a sweep with the flags `{own}`; a sweep keeps its flags")).into()
-                );
-            }
-            let file = read_file(args)?.map(|(_, text)| text);
-            let is_same = plan.file.as_ref().map(|(_, text)| text) == file.as_ref()
-                && plan.seeds == args.seeds.or(file.is_none().then_some(SEEDS))
-                && plan.settings == args.trials
-                && plan.connect == args.connect
-                && args.new.seed.is_none_or(|seed| seed == plan.seed);
-            if !is_same {
-                let root = root.display();
-                let why = format!(
-                    "`{root}` holds a sweep with another file, --connect, --seeds, --trials or --seed; a sweep keeps them"
-                );
-                return Err(Usage(why).into());
-            }
-            (folder, plan)
+            planning::check_same(args, &flags, &plan, root)?;
+            (Some(folder), plan)
         }
-        (None, None) => {
-            let plan = plan_sweep(args, flags, tasks)?;
-            if args.plan {
-                say(&serde_json::to_string(&plan)?);
-                return Ok(());
-            }
-            let folder = SweepFolder::create(args.new.run_dir.as_deref())?;
-            folder.save(&plan)?;
-            (folder, plan)
-        }
+        (None, None) => (None, planning::plan_sweep(args, flags, tasks)?),
     };
     if let Some(parallel) = args.parallel {
         plan.parallel = parallel as usize;
     }
     let search = plan.search()?;
     let goal = Goal::read(&plan.goal).map_err(Usage)?;
+    let proposer = search.sampler().map(Proposer::start).transpose()?;
+    let is_new = opened.is_none();
+    let folder = opened.map_or_else(|| SweepFolder::create(args.new.run_dir.as_deref()), Ok)?;
+    let open = |proposer| Study::open(proposer, &folder, &plan, is_new, &search, &goal);
+    let mut study = proposer.map(open).transpose()?;
+    folder.save(&plan)?;
     let mut results = SweepResults::of_ended(folder.root(), &plan, &goal, search.interval_steps().is_some());
     let shown = report::shorter(folder.root()).display().to_string();
-    let (count, parallel) = (plan.trials.len(), plan.parallel);
+    let (count, parallel) = (search.count(&plan), plan.parallel);
     say(&format!("{shown}: {count} trials, {parallel} at once; their output is in {shown}/trial-N.log"));
     let ended = async_runtime::run(async {
         let shutdown = Shutdown::default();
         let first = "stopping: trials save after this update; press Ctrl-C again to stop at once";
         signals::listen(shutdown.clone(), first)?;
-        train(&folder, &mut plan, &search, &mut results, &shutdown).await
+        train(&folder, &mut plan, &search, study.as_mut(), &mut results, &shutdown).await
     })?;
     let go_on = format!("treadmill sweep --resume {}", quoted(&shown));
     match ended {
         Ended::All => {}
         Ended::Stopped => {
-            let left = plan.unfinished().len();
-            let stopped = format!("stopped with {left} of {} trials to go", plan.trials.len());
+            let left = plan.unfinished().len() + count - plan.trials.len();
+            let stopped = format!("stopped with {left} of {count} trials to go");
             // To whatever runs a service, success means that all trials have ended.
             anyhow::ensure!(!args.any.resume_or_start, "{stopped}; start it again to go on");
             say(&format!("{stopped}; go on with: {go_on}"));
@@ -190,9 +167,10 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             "the disk of `{shown}` is full, so no further trial begins; free some space, then go on with `{go_on}`"
         ),
     }
-    report::print_end(&plan, &results);
+    let importance = study.map_or_else(|| Ok(BTreeMap::new()), |mut study| study.importance())?;
+    report::print_end(&plan, &results, &importance);
     if args.any.json {
-        say(&report::as_json(&plan, &results).to_string());
+        say(&report::as_json(&plan, &results, &importance).to_string());
     }
     let failed = plan.failed();
     if failed == plan.trials.len() {
@@ -206,6 +184,7 @@ async fn train(
     folder: &SweepFolder,
     plan: &mut Plan,
     search: &SweepSearch,
+    study: Option<&mut Study<'_>>,
     results: &mut SweepResults,
     shutdown: &Shutdown,
 ) -> anyhow::Result<Ended> {
@@ -216,12 +195,12 @@ async fn train(
         folder.save(plan)?;
         results.read(plan, index);
         report::write_tables(folder, plan, search, results)?;
-        report::print_trial(folder, plan, results, index);
+        report::print_trial(folder, plan, results, index, search.count(plan));
         Ok(())
     };
     let Some(interval_steps) = search.interval_steps() else {
         let unfinished = plan.unfinished();
-        return runner.run(plan, &unfinished, record).await;
+        return runner.run(plan, &unfinished, study, record).await;
     };
     loop {
         if shutdown.asked() {
@@ -236,7 +215,7 @@ async fn train(
         };
         let behind: Vec<usize> = living.filter(behind).collect();
         let ended = runner
-            .run(plan, &behind, |plan, index, code| {
+            .run(plan, &behind, None, |plan, index, code| {
                 population::forget_state(folder, index);
                 // A member that is well goes on after the interval.
                 if is_last || code != 0 { record(plan, index, code) } else { Ok(()) }
@@ -253,136 +232,4 @@ async fn train(
         (before..plan.trials.len()).for_each(|index| report::print_fork(plan, index));
         replaced.into_iter().try_for_each(|index| record(plan, index, plan.trials[index].exit.unwrap_or_default()))?;
     }
-}
-
-/// Returns name and text of the search file, if one is given.
-fn read_file(args: &SweepArgs) -> anyhow::Result<Option<(String, String)>> {
-    let read = |path: &PathBuf| -> anyhow::Result<(String, String)> {
-        let name = path.display().to_string();
-        Ok((name.clone(), fs::read_to_string(path).with_context(|| format!("cannot read `{name}`"))?))
-    };
-    args.file.as_ref().map(read).transpose()
-}
-
-/// Checks flags and file, and returns the plan of a new sweep.
-fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegistry) -> anyhow::Result<Plan> {
-    if args.any.store.is_some() {
-        let why = "--store: the trials of a sweep keep their states in folders; leave it out";
-        return Err(Usage(why.to_string()).into());
-    }
-    if args.any.resume_or_start && args.new.run_dir.is_none() {
-        return Err(Usage("--resume-or-start needs the folder of the sweep: pass --run-dir DIR".to_string()).into());
-    }
-    let command = if args.connect.is_empty() { RunCommand::Train } else { RunCommand::Learner };
-    let launcher = Launcher { command, tasks };
-    // Before anything is written.
-    let network = NetworkArgs { tls: args.tls.clone(), insecure: args.insecure, ..NetworkArgs::default() };
-    network.options(Role::Learner, Vec::new(), args.connect.clone())?;
-    let changes = args.actors.changes()?;
-    let source = begin::sources(launcher, &args.new, &args.any, &changes)?.source;
-    let config = source.build()?;
-    prepared::check_external(command, &config, &args.any)?;
-    let file = read_file(args)?;
-    let mut plan = Plan {
-        started_in: std::env::current_dir().context("the working directory is unknown")?,
-        flags,
-        seeds: args.seeds.or(file.is_none().then_some(SEEDS)),
-        file,
-        settings: args.trials,
-        parallel: args.parallel.map_or_else(trials_at_once, |parallel| parallel as usize),
-        deterministic: config.run.deterministic,
-        connect: args.connect.clone(),
-        bus_name: plan::bus_name(args.new.run_dir.as_deref()),
-        goal: String::new(),
-        seed: config.run.seed,
-        steps: config.run.steps,
-        intervals: 0,
-        trials: Vec::new(),
-    };
-    let search = plan.search()?;
-    if let Some(interval_steps) = search.interval_steps() {
-        let batch = BatchSize::of(&config.ppo).transitions as u64;
-        if interval_steps < batch || interval_steps >= plan.steps {
-            let steps = plan.steps;
-            let why = format!(
-                "`interval_steps` is {interval_steps}; allowed: {batch}, a batch, to less than --steps, {steps}"
-            );
-            return Err(Usage(why).into());
-        }
-    }
-    plan.goal = search.goal.clone().unwrap_or_else(|| Goal::of(&config, search.interval_steps().is_some())).to_string();
-    plan.propose(&search);
-    check_trials(&plan, &source, &changes)?;
-    Ok(plan)
-}
-
-/// Returns how many trials this machine trains at once: with one core each they are together faster than one after the
-/// other with all cores, because nothing waits for another process.
-fn trials_at_once() -> usize {
-    let by_memory =
-        machine::memory_bytes().map_or(usize::MAX, |bytes| (bytes / (LEARNER_BYTES + ACTOR_BYTES)) as usize);
-    machine::cores().min(by_memory).max(1)
-}
-
-/// Returns why a run takes no actors of a pool, if so.
-fn takes_no_pool(config: &Config) -> Option<&'static str> {
-    match (config.run.deterministic, config.is_external(), config.run.share == 0.0) {
-        (true, ..) => Some("`run.deterministic` is true, and such a run takes no actors of a pool"),
-        (_, true, _) => Some("`env.task` is \"external\", and such a run takes no actors of a pool"),
-        (.., true) => Some("`run.share` is 0, and such a run takes no actors of a pool"),
-        _ => None,
-    }
-}
-
-/// Checks the configuration of every trial. `changes` are keys of flags, which come after those of the search.
-fn check_trials(plan: &Plan, source: &ConfigSource, changes: &[(&str, toml::Value)]) -> Result<(), Usage> {
-    let wrong = |keys: &search::Setting| -> Option<String> {
-        let mut source = source.clone();
-        let searched = keys.iter().map(|(key, value)| (key.as_str(), given_value(value)));
-        let set = searched.chain(changes.iter().cloned()).try_for_each(|(key, value)| source.value(key, value));
-        let config: Config = match set.and_then(|()| source.build()) {
-            Ok(config) => config,
-            Err(why) => return Some(why.to_string()),
-        };
-        if let (false, Some(why)) = (plan.connect.is_empty(), takes_no_pool(&config)) {
-            return Some(format!("--connect: {why}; set another value, or leave --connect out"));
-        }
-        let lost = keys.iter().find(|(key, value)| !space::is_same(&config.value_of(key), value));
-        lost.map(|(key, _)| format!("`{key}` is set by another flag too; leave that out"))
-    };
-    let mut found: Vec<String> = plan.trials.iter().filter_map(|trial| wrong(&trial.keys)).collect();
-    found.dedup();
-    let count = found.len();
-    found.truncate(WRONG_MAX);
-    match count {
-        0 => Ok(()),
-        _ => Err(Usage(format!("{count} settings of the search are not allowed: {}", found.join("; ")))),
-    }
-}
-
-/// Returns the flags of this process's command line that `train` has too, each as one word.
-fn train_flags() -> Vec<String> {
-    let program = crate::command_line();
-    let (Some(sweep), Some(train)) = (program.find_subcommand("sweep"), program.find_subcommand("train")) else {
-        return Vec::new();
-    };
-    let Ok(matches) = program.clone().try_get_matches() else { return Vec::new() };
-    let Some(("sweep", given)) = matches.subcommand() else { return Vec::new() };
-    let known: Vec<&str> = train.get_arguments().map(|arg| arg.get_id().as_str()).collect();
-    let mut flags = Vec::new();
-    for arg in sweep.get_arguments() {
-        let id = arg.get_id().as_str();
-        let is_kept = known.contains(&id) && !OWN_FLAGS.contains(&id);
-        if !is_kept || given.value_source(id) != Some(ValueSource::CommandLine) {
-            continue;
-        }
-        let Some(name) = arg.get_long() else { continue };
-        if matches!(arg.get_action(), ArgAction::SetTrue) {
-            flags.push(format!("--{name}"));
-        } else {
-            let values = given.get_raw(id).into_iter().flatten();
-            flags.extend(values.map(|value| format!("--{name}={}", value.to_string_lossy())));
-        }
-    }
-    flags
 }

@@ -18,12 +18,15 @@ const LOCK: &str = "sweep.lock";
 const SWEEP_CHARS_MAX: usize = 40;
 
 /// Trial: an ordinary run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Trial {
     pub(crate) seed: u64,
     /// Number of its setting; in a population, of its member.
     pub(crate) setting: usize,
     pub(crate) keys: Setting,
+    /// Whether Optuna found it hopeless.
+    #[serde(default)]
+    pub(crate) is_pruned: bool,
     /// Exit code, once it has ended.
     pub(crate) exit: Option<i32>,
     /// Trial that it forked, and at how many environment steps.
@@ -42,6 +45,9 @@ pub(crate) struct Plan {
     /// Flags that replace entries of the file.
     pub(crate) settings: Option<usize>,
     pub(crate) seeds: Option<usize>,
+    /// Database of Optuna, if not a file in the sweep's folder.
+    #[serde(default)]
+    pub(crate) storage: Option<String>,
     /// Trials at once.
     pub(crate) parallel: usize,
     /// Whether one actor runs in lock-step.
@@ -76,13 +82,18 @@ impl Plan {
 
     /// Adds the trials of a search.
     pub(crate) fn propose(&mut self, search: &SweepSearch) {
-        for (setting, keys) in search.settings(self.seed).into_iter().enumerate() {
-            for number in 0..search.seeds {
-                // The seeds are the same for each setting, so that chance favours none; members of a population differ.
-                let is_population = search.interval_steps().is_some();
-                let seed = self.seed.saturating_add(if is_population { setting } else { number } as u64);
-                self.trials.push(Trial { seed, setting: setting + 1, keys: keys.clone(), exit: None, parent: None });
-            }
+        for (setting, keys) in search.settings(self.seed).iter().enumerate() {
+            self.add(setting, keys, search);
+        }
+    }
+
+    /// Adds the trials of a setting, whose number counts from 0.
+    pub(crate) fn add(&mut self, setting: usize, keys: &Setting, search: &SweepSearch) {
+        for number in 0..search.seeds {
+            // The seeds are the same for each setting, so that chance favours none; members of a population differ.
+            let is_population = search.interval_steps().is_some();
+            let seed = self.seed.saturating_add(if is_population { setting } else { number } as u64);
+            self.trials.push(Trial { seed, setting: setting + 1, keys: keys.clone(), ..Trial::default() });
         }
     }
 
@@ -99,7 +110,7 @@ impl Plan {
 
     /// Returns how many trials failed.
     pub(crate) fn failed(&self) -> usize {
-        self.trials.iter().filter(|trial| trial.exit.is_some_and(|code| code != 0)).count()
+        self.trials.iter().filter(|trial| !trial.is_pruned && trial.exit.is_some_and(|code| code != 0)).count()
     }
 
     /// Returns the trials that have not ended.
@@ -237,14 +248,7 @@ pub(crate) fn find(given: &str) -> Result<PathBuf, Usage> {
 /// # Errors
 /// If it cannot be read.
 pub(crate) fn read(root: &Path) -> anyhow::Result<Plan> {
-    read_file(&root.join(FILE))
-}
-
-/// Reads a plan.
-///
-/// # Errors
-/// If it cannot be read.
-pub(crate) fn read_file(path: &Path) -> anyhow::Result<Plan> {
-    let text = fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()))?;
+    let path = root.join(FILE);
+    let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
     serde_json::from_str(&text).with_context(|| format!("`{}` is not the plan of a sweep", path.display()))
 }

@@ -69,7 +69,7 @@ pub(crate) fn evolve(
             plan.trials[worst].exit = Some(0);
             replaced.push(worst);
         }
-        plan.trials.push(Trial { seed, setting, keys, exit: None, parent: Some((parent, steps)) });
+        plan.trials.push(Trial { seed, setting, keys, parent: Some((parent, steps)), ..Trial::default() });
     }
     Ok(replaced)
 }

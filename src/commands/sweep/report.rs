@@ -2,11 +2,9 @@
 
 use std::{
     collections::BTreeMap,
-    fs,
     path::{Path, PathBuf},
 };
 
-use anyhow::Context;
 use serde_json::json;
 use treadmill_learner::metrics::{GoalCost, SweptCurve, draw_sweep, table::format_number};
 use treadmill_runtime::{
@@ -18,7 +16,7 @@ use treadmill_runtime::{
 use super::{
     goal::Goal,
     plan::{self, Plan, SweepFolder, Trial},
-    results::{SettingResult, SweepResults},
+    results::{SettingResult, SweepResults, TrialResult},
     search::SweepSearch,
     trials::{flags, last_error},
 };
@@ -34,16 +32,17 @@ use crate::{
 const KEYS_CHARS_MAX: usize = 60;
 
 /// Prints the line of a trial that has ended.
-pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, results: &SweepResults, index: usize) {
-    let Trial { seed, keys, exit, .. } = &plan.trials[index];
+pub(crate) fn print_trial(folder: &SweepFolder, plan: &Plan, results: &SweepResults, index: usize, count: usize) {
+    let Trial { seed, keys, exit, is_pruned, .. } = &plan.trials[index];
     let found = results.of(index);
     let (steps, seconds) = found.map_or((0, 0.0), |found| (found.record.env_steps, found.record.wall_s));
-    let mut line = format!("trial-{} of {}: seed {seed}", index + 1, plan.trials.len());
+    let mut line = format!("trial-{} of {count}: seed {seed}", index + 1);
     if !keys.is_empty() {
         line += &format!(", {}", keys_text(keys));
     }
     line += &format!(": {} steps in {}", thousands(steps), duration(seconds));
     line += &match exit {
+        _ if *is_pruned => ", pruned".to_string(),
         Some(0) | None => format!(", {}: {}", results.goal, value(found.and_then(|found| found.reached))),
         Some(code) => {
             let why = last_error(&folder.log(index)).unwrap_or_else(|| folder.log(index).display().to_string());
@@ -65,9 +64,10 @@ pub(crate) fn write_tables(
 ) -> anyhow::Result<()> {
     let names: Vec<&str> = search.keys.iter().map(|(key, _)| key.as_str()).collect();
     let begin = "trial,setting,seed,exit,env_steps,wall_s,goal,best_distance_m,velocity_error_mps,return,fall_fraction";
-    let mut text = csv_row([begin].into_iter().chain(names.iter().copied()).map(str::to_string));
+    let mut text = csv_row([begin].into_iter().chain(names.iter().copied()).chain(["state"]).map(str::to_string));
     let mut lineage = csv_row(["trial,parent,env_steps,seed"].into_iter().chain(names).map(str::to_string));
-    for (index, Trial { seed, setting, keys, exit, parent }) in plan.trials.iter().enumerate() {
+    for (index, trial) in plan.trials.iter().enumerate() {
+        let Trial { seed, setting, keys, exit, parent, .. } = trial;
         let found = results.of(index);
         let record = found.map(|found| &found.record);
         let numbers = [
@@ -79,17 +79,28 @@ pub(crate) fn write_tables(
             record.and_then(|record| record.training_return),
             record.and_then(|record| record.fall_fraction),
         ];
-        let trial = (index + 1).to_string();
-        let begin = [trial.clone(), setting.to_string(), seed.to_string(), shown_or_empty(*exit)];
+        let (number, state) = ((index + 1).to_string(), state(trial, found).to_string());
+        let begin = [number.clone(), setting.to_string(), seed.to_string(), shown_or_empty(*exit)];
         let numbers = numbers.map(shown_or_empty);
         let values = || keys.iter().map(|(_, value)| csv_cell(value));
-        text += &csv_row(begin.into_iter().chain(numbers).chain(values()));
+        text += &csv_row(begin.into_iter().chain(numbers).chain(values()).chain([state]));
         let (parent, steps) =
             (shown_or_empty(parent.map(|(parent, _)| parent + 1)), parent.map_or(0, |(_, steps)| steps));
-        lineage += &csv_row([trial, parent, steps.to_string(), seed.to_string()].into_iter().chain(values()));
+        lineage += &csv_row([number, parent, steps.to_string(), seed.to_string()].into_iter().chain(values()));
     }
     folder.write("sweep.csv", &text)?;
     if search.interval_steps().is_some() { folder.write("lineage.csv", &lineage) } else { Ok(()) }
+}
+
+/// Returns what has become of a trial; nothing before its end.
+fn state(trial: &Trial, found: Option<&TrialResult>) -> &'static str {
+    match trial.exit {
+        None => "",
+        _ if trial.is_pruned => "pruned",
+        Some(0) if found.is_some_and(|found| found.reached.is_some()) => "complete",
+        Some(0) => "not reached",
+        Some(_) => "failed",
+    }
 }
 
 fn shown_or_empty<T: ToString>(number: Option<T>) -> String {
@@ -104,8 +115,8 @@ fn csv_cell(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_string() }
 }
 
-/// Prints the tables of a sweep and draws its picture.
-pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
+/// Prints the tables of a sweep and draws its picture. `importance` is that of each key, if a study has it.
+pub(crate) fn print_end(plan: &Plan, results: &SweepResults, importance: &BTreeMap<String, f64>) {
     let (settings, root) = (results.settings(plan), &results.root);
     if let Err(why) = draw(plan, results, &settings) {
         say_error(&format!("the picture is missing: {}", error_chain(&*why)));
@@ -123,6 +134,12 @@ pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
         say(&shown(format!("{setting:>9}  {count:>6}  {cells}{keys}").trim_end()));
     }
     say("trials: those that reached the goal, of all; deviation: standard deviation over their seeds.");
+    if !importance.is_empty() {
+        let mut shares: Vec<(&String, &f64)> = importance.iter().collect();
+        shares.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+        say("\nImportance of each key by PED-ANOVA, from the settings that reached the goal:");
+        shares.into_iter().for_each(|(key, share)| say(&format!("{:>8.1} %  {key}", share * 100.0)));
+    }
     say(&format!("\nBest: {}", shorter(&plan::trial(root, best)).display()));
     if plan.trials[best].parent.is_some() {
         print_schedule(root, plan, best);
@@ -131,7 +148,7 @@ pub(crate) fn print_end(plan: &Plan, results: &SweepResults) {
 }
 
 /// Returns the results as JSON.
-pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value {
+pub(crate) fn as_json(plan: &Plan, results: &SweepResults, importance: &BTreeMap<String, f64>) -> serde_json::Value {
     let setting = |found: SettingResult| {
         json!({
             "keys": plan.trials[found.trials[0]].keys.iter().cloned().collect::<BTreeMap<_, _>>(),
@@ -145,8 +162,10 @@ pub(crate) fn as_json(plan: &Plan, results: &SweepResults) -> serde_json::Value 
         "goal": results.goal.to_string(),
         "trials": plan.trials.len(),
         "failed": plan.failed(),
+        "pruned": plan.trials.iter().filter(|trial| trial.is_pruned).count(),
         "best": results.best(plan).map(|index| format!("trial-{}", index + 1)),
         "settings": results.settings(plan).into_iter().map(setting).collect::<Vec<_>>(),
+        "importance": importance,
     })
 }
 
@@ -227,18 +246,6 @@ pub(crate) fn print_fork(plan: &Plan, index: usize) {
     let (parent, steps) = parent.unwrap_or_default();
     let (name, parent, steps) = (index + 1, parent + 1, thousands(steps));
     say(&shown(&format!("trial-{name} forks trial-{parent} at {steps} steps: {}", keys_text(keys))));
-}
-
-/// Draws `sweep.png` beside a plan whose trials another program ran.
-///
-/// # Errors
-/// If the plan cannot be read, or the picture not written.
-pub(crate) fn draw_plan(path: &Path) -> anyhow::Result<()> {
-    let path = fs::canonicalize(path).with_context(|| format!("cannot read `{}`", path.display()))?;
-    let plan = plan::read_file(&path)?;
-    let goal = Goal::read(&plan.goal).map_err(Usage)?;
-    let results = SweepResults::of_ended(path.parent().unwrap_or(&path), &plan, &goal, false);
-    draw(&plan, &results, &results.settings(&plan))
 }
 
 /// Prints the commands that train the best line of a sweep anew.

@@ -7,14 +7,14 @@ use std::{
 
 use super::{
     goal::Goal,
-    plan::{self, Plan},
+    plan::{self, Plan, Trial},
 };
 use crate::commands::runs::record::Record;
 
 /// Trial that has begun, with its results.
 pub(crate) struct TrialResult {
     pub(crate) record: Record,
-    /// What it reached; nothing if it failed.
+    /// What it reached; nothing if it failed or was pruned.
     pub(crate) reached: Option<f64>,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct SettingResult {
 impl SettingResult {
     /// Returns the mean of what was reached.
     pub(crate) fn mean(&self) -> Option<f64> {
-        (!self.reached.is_empty()).then(|| self.reached.iter().sum::<f64>() / self.reached.len() as f64)
+        (!self.reached.is_empty()).then(|| mean(&self.reached))
     }
 
     /// Returns the standard deviation of the sample.
@@ -62,9 +62,9 @@ impl SweepResults {
     /// Reads the results of a trial, if it has begun.
     pub(crate) fn read(&mut self, plan: &Plan, index: usize) {
         let run = plan::trial(&self.root, index);
-        let has_failed = plan.trials[index].exit.is_some_and(|code| code != 0);
+        let Trial { exit, is_pruned, .. } = plan.trials[index];
         if let Ok(record) = Record::read(&run) {
-            let reached = self.goal.reached(&run).filter(|_| !has_failed);
+            let reached = self.goal.reached(&run).filter(|_| !is_pruned && exit.is_none_or(|code| code == 0));
             self.trials.insert(index, TrialResult { record, reached });
         }
     }
@@ -107,9 +107,14 @@ impl SweepResults {
     }
 }
 
+/// Returns the mean.
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{super::plan::Trial, *};
+    use super::*;
 
     #[test]
     fn settings_are_sorted_by_trials_that_reached_the_goal_and_their_mean() {
@@ -123,7 +128,7 @@ mod tests {
                 .enumerate()
         {
             results.trials.insert(index, TrialResult { record: Record::default(), reached: *reached });
-            trials.push(Trial { seed: 1, setting: *setting, keys: Vec::new(), exit: Some(0), parent: None });
+            trials.push(Trial { setting: *setting, exit: Some(0), ..Trial::default() });
         }
         let plan = Plan { trials, ..Plan::default() };
         let settings = results.settings(&plan);

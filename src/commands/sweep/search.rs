@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 use treadmill_runtime::{numbers::parse_count, seeds, words::nearest};
 
-use super::{goal::Goal, space::KeyRange};
+use super::{goal::Goal, plan::Plan, space::KeyRange};
 use crate::launch::exit_code::Usage;
 
 /// Most trials of a sweep.
@@ -24,7 +24,10 @@ const FORK_KEEPS: [&str; 7] = [
     "motion.state_estimation",
 ];
 /// Entries of a search file.
-const ENTRIES: [&str; 6] = ["strategy", "trials", "seeds", "goal", "interval_steps", "keys"];
+const ENTRIES: [&str; 7] = ["strategy", "pruner", "trials", "seeds", "goal", "interval_steps", "keys"];
+/// Samplers and pruners of Optuna.
+const SAMPLERS: [&str; 3] = ["tpe", "cmaes", "random"];
+const PRUNERS: [&str; 3] = ["none", "median", "hyperband"];
 
 /// How the settings of trials are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +40,8 @@ pub(crate) enum Strategy {
     Random,
     /// The worst fork the best every so many steps.
     Population { interval_steps: u64 },
+    /// Proposed by Optuna, which ends hopeless ones.
+    Optuna { sampler: &'static str, pruner: &'static str },
 }
 
 /// Value of each searched key, in TOML notation.
@@ -97,6 +102,11 @@ impl SweepSearch {
             wrong.push(why);
             None
         });
+        let pruner = table.get("pruner").map_or(Some("none"), Value::as_str);
+        let pruner = PRUNERS.into_iter().find(|name| pruner == Some(name)).unwrap_or_else(|| {
+            wrong.push(format!("`pruner` is {}; allowed: \"none\", \"median\" or \"hyperband\"", table["pruner"]));
+            "none"
+        });
         let named = table.get("strategy").map_or(Some("random"), Value::as_str);
         let (strategy, settings) = match named {
             Some("seeds") => (Strategy::Seeds, 1),
@@ -104,7 +114,7 @@ impl SweepSearch {
                 let product = keys.iter().try_fold(1usize, |all, (_, range)| all.checked_mul(range.points()));
                 (Strategy::Grid, product.unwrap_or(usize::MAX))
             }
-            Some("random") => (Strategy::Random, trials.unwrap_or(TRIALS)),
+            Some("random") if pruner == "none" => (Strategy::Random, trials.unwrap_or(TRIALS)),
             Some("population") => {
                 if interval_steps.is_none() {
                     wrong.push("`interval_steps` is missing; a population forks after each of them".to_string());
@@ -112,23 +122,19 @@ impl SweepSearch {
                 let interval_steps = interval_steps.unwrap_or(1);
                 (Strategy::Population { interval_steps }, trials.unwrap_or(POPULATION))
             }
-            Some(name @ ("tpe" | "cmaes")) => {
-                let command = "`python -m treadmill_sweep`, with the same file and flags (see docs/guide/sweep.md)";
-                wrong.push(format!("strategy \"{name}\" is Optuna's; start it by {command}"));
-                (Strategy::Random, 1)
-            }
-            _ => {
-                wrong.push(format!(
-                    "`strategy` is {}; allowed: \"seeds\", \"grid\", \"random\" or \"population\"",
-                    table["strategy"]
-                ));
-                (Strategy::Random, 1)
-            }
+            _ => match SAMPLERS.into_iter().find(|name| named == Some(name)) {
+                Some(sampler) => (Strategy::Optuna { sampler, pruner }, trials.unwrap_or(TRIALS)),
+                None => {
+                    let allowed = "\"seeds\", \"grid\", \"random\", \"population\", \"tpe\" or \"cmaes\"";
+                    wrong.push(format!("`strategy` is {}; allowed: {allowed}", table["strategy"]));
+                    (Strategy::Random, 1)
+                }
+            },
         };
         let search = Self { strategy, settings, seeds: seeds.unwrap_or(1), goal, keys };
         if wrong.is_empty() {
             let has_trials = table.contains_key("trials") || trials.is_some();
-            wrong.extend(search.objections(has_trials, table.contains_key("interval_steps")));
+            wrong.extend(search.objections(has_trials, table.contains_key("interval_steps"), pruner != "none"));
         }
         match wrong.len() {
             0 => Ok(search),
@@ -138,7 +144,7 @@ impl SweepSearch {
     }
 
     /// Returns entries that contradict the strategy.
-    fn objections(&self, has_trials: bool, has_interval: bool) -> Vec<String> {
+    fn objections(&self, has_trials: bool, has_interval: bool, has_pruner: bool) -> Vec<String> {
         let mut wrong = Vec::new();
         let mut refuse = |is_wrong: bool, why: &str| wrong.extend(is_wrong.then(|| why.to_string()));
         let is_population = self.interval_steps().is_some();
@@ -151,6 +157,8 @@ impl SweepSearch {
         let is_fixed = matches!(self.strategy, Strategy::Seeds | Strategy::Grid);
         refuse(is_fixed && has_trials, "the strategy sets the number of trials; leave `trials` out");
         refuse(!is_population && has_interval, "only strategy \"population\" has `interval_steps`; leave it out");
+        let prunes = self.sampler().is_some();
+        refuse(has_pruner && !prunes, "only \"tpe\", \"cmaes\" and \"random\" have a `pruner`; leave it out");
         refuse(is_population && self.seeds > 1, "each member of a population has a seed of its own; leave `seeds` out");
         let kept = |key: &str| key.starts_with("env.") || FORK_KEEPS.contains(&key);
         let keeps = self.keys.iter().map(|(key, _)| key.as_str()).find(|key| is_population && kept(key));
@@ -175,6 +183,19 @@ impl SweepSearch {
             Strategy::Population { interval_steps } => Some(interval_steps),
             _ => None,
         }
+    }
+
+    /// Returns Optuna's sampler, if it proposes the settings.
+    pub(crate) fn sampler(&self) -> Option<&'static str> {
+        match self.strategy {
+            Strategy::Optuna { sampler, .. } => Some(sampler),
+            _ => None,
+        }
+    }
+
+    /// Returns how many trials a sweep has, or will have.
+    pub(crate) fn count(&self, plan: &Plan) -> usize {
+        plan.trials.len().max(self.settings.saturating_mul(self.seeds))
     }
 
     fn check_size(&self) -> Result<(), String> {
@@ -272,9 +293,17 @@ mod tests {
     #[test]
     fn entries_fit_the_strategy() {
         let key = "keys.ppo.gamma = { uniform = [0.9, 1] }";
+        for (text, strategy) in [
+            ("pruner = 'none'", Strategy::Random),
+            ("pruner = 'median'", Strategy::Optuna { sampler: "random", pruner: "median" }),
+            ("strategy = 'cmaes'", Strategy::Optuna { sampler: "cmaes", pruner: "none" }),
+        ] {
+            assert_eq!(read(&format!("{text}\n{key}")).unwrap().strategy, strategy, "{text}");
+        }
         for (text, part) in [
             ("strategy = 'annealing'".to_string(), "\"population\""),
-            (format!("strategy = 'tpe'\n{key}"), "`python -m treadmill_sweep`"),
+            (format!("strategy = 'tpe'\npruner = 'halving'\n{key}"), "`pruner` is \"halving\""),
+            (format!("strategy = 'grid'\npruner = 'median'\n{key}"), "have a `pruner`; leave it out"),
             ("strategy = 'random'".to_string(), "`keys` is missing"),
             (format!("strategy = 'seeds'\n{key}"), "no `keys`"),
             (format!("strategy = 'grid'\ntrials = 4\n{key}"), "leave `trials` out"),

@@ -1,6 +1,7 @@
 //! Values that a key may take in a sweep.
 
 use rand::RngExt;
+use serde_json::json;
 use toml::{Table, Value};
 use treadmill_config::{ConfigSource, given_value};
 use treadmill_runtime::seeds::Stream;
@@ -91,6 +92,25 @@ impl KeyRange {
             }
             Self::Integers(ends) => ends.map(Value::Integer).to_vec(),
             Self::Choices(choices) => choices.clone(),
+        }
+    }
+
+    /// Returns kind and values as a study has them: of choices the TOML notation, because lists are no values there.
+    pub(crate) fn as_of_study(&self) -> (&'static str, serde_json::Value) {
+        match self {
+            Self::Uniform(ends, _) => ("uniform", json!(ends)),
+            Self::LogUniform(ends, _) => ("log_uniform", json!(ends)),
+            Self::Integers(ends) => ("integers", json!(ends)),
+            Self::Choices(choices) => ("choices", choices.iter().map(Value::to_string).collect()),
+        }
+    }
+
+    /// Returns a value that a study proposes, in TOML notation; nothing if it has another kind.
+    pub(crate) fn proposed(&self, value: &serde_json::Value) -> Option<String> {
+        match self {
+            Self::Uniform(ends, _) | Self::LogUniform(ends, _) => Some(number(value.as_f64()?, ends)),
+            Self::Integers(_) => Some(value.as_i64()?.to_string()),
+            Self::Choices(_) => value.as_str().map(str::to_string),
         }
     }
 
@@ -212,6 +232,28 @@ mod tests {
         assert!(draws.iter().all(|value| (1e-5..=1e-3).contains(value)));
         let low = draws.iter().filter(|value| **value < 1e-4).count();
         assert!((450..550).contains(&low), "half of them below the middle of the logarithm: {low}");
+    }
+
+    #[test]
+    fn a_study_gets_ranges_and_proposes_values() {
+        for (key, text, kind, values, proposed, text_of_it) in [
+            ("ppo.gamma", "uniform = [0.9, 1]", "uniform", json!([0.9, 1.0]), json!(0.912_345_678), "0.912346"),
+            ("ppo.learning_rate", "log_uniform = [0.1, 1]", "log_uniform", json!([0.1, 1.0]), json!(1), "1.0"),
+            ("ppo.epochs", "integers = [2, 4]", "integers", json!([2, 4]), json!(3), "3"),
+            (
+                "policy.hidden",
+                "choices = [[8], [8, 4]]",
+                "choices",
+                json!(["[8]", "[8, 4]"]),
+                json!("[8, 4]"),
+                "[8, 4]",
+            ),
+        ] {
+            let range = range(key, text).unwrap();
+            assert_eq!(range.as_of_study(), (kind, values), "{key}");
+            assert_eq!(range.proposed(&proposed), Some(text_of_it.to_string()), "{key}");
+            assert_eq!(range.proposed(&json!(null)), None, "{key}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Runs trials as child processes: `treadmill train`, some at a time.
 
 use std::{
-    collections::VecDeque,
+    collections::{BTreeMap, VecDeque},
     fs::{self, File},
     io::{Read, Seek, SeekFrom},
     os::unix::process::{CommandExt, ExitStatusExt},
@@ -14,7 +14,10 @@ use anyhow::Context;
 use tokio::{process::Command, task::JoinSet};
 use treadmill_runtime::{machine::cores, run_folder::RunFolder, run_lock, shutdown::Shutdown};
 
-use super::plan::{Plan, SweepFolder, Trial};
+use super::{
+    plan::{Plan, SweepFolder, Trial},
+    study::Study,
+};
 use crate::launch::{child, exit_code::Usage, supervisor::own_program};
 
 /// Free room (bytes) below which no further trial begins.
@@ -23,6 +26,8 @@ const ROOM_MIN_BYTES: u64 = 64 << 20;
 const KILLS_MAX: u32 = 8;
 /// Wait for a process that is about to leave a trial's folder.
 const LOCK_TIMEOUT: Duration = Duration::from_secs(10);
+/// Time between looks at what trials report to a study.
+const FOLLOW_EVERY: Duration = Duration::from_millis(200);
 /// Most bytes of a log's end that are searched for an error.
 const LOG_END_BYTES: i64 = 8 << 10;
 
@@ -48,57 +53,79 @@ pub(crate) enum Ended {
 }
 
 impl TrialRunner<'_> {
-    /// Runs trials of a plan, and calls `ended` with each that has ended and its exit code. One that stops because the sweep
-    /// was asked to is not among them.
+    /// Runs trials of a plan, then those that a study proposes, and calls `ended` with each that has ended and its exit code. One
+    /// that stops because the sweep was asked to is not among them.
     ///
     /// # Errors
-    /// If a process cannot be started, another process has a trial's folder, or `ended` fails.
+    /// If a process cannot be started, another process has a trial's folder, or `study` or `ended` fails.
     pub(crate) async fn run(
         &self,
         plan: &mut Plan,
         indices: &[usize],
+        mut study: Option<&mut Study<'_>>,
         mut ended: impl FnMut(&mut Plan, usize, i32) -> anyhow::Result<()>,
     ) -> anyhow::Result<Ended> {
         let mut queue: VecDeque<(usize, u32)> = indices.iter().map(|index| (*index, 0)).collect();
         let mut running = JoinSet::new();
+        let mut hopeless: BTreeMap<usize, Shutdown> = BTreeMap::new();
+        let mut looks = tokio::time::interval(FOLLOW_EVERY);
         // Trials of the last round have the cores among themselves.
-        let last_round = indices.len() - indices.len() % self.parallel;
+        let count = indices.len() + study.as_ref().map_or(0, |study| study.left(plan));
+        let last_round = count - count % self.parallel;
         let (mut begun, mut outcome) = (0, Ended::All);
         loop {
-            while running.len() < self.parallel && outcome == Ended::All && !queue.is_empty() {
-                if self.shutdown.asked() {
+            while running.len() < self.parallel && outcome == Ended::All {
+                let has_next = |study: &&mut Study<'_>| study.has_next(plan, running.len());
+                let next = study.as_mut().filter(|study| queue.is_empty() && has_next(study));
+                if queue.is_empty() && next.is_none() {
+                    break;
+                } else if self.shutdown.asked() {
                     outcome = Ended::Stopped;
                 } else if !self.has_room() {
                     outcome = Ended::NoRoom;
+                } else if let Some(study) = next {
+                    queue.extend(study.ask(plan)?.map(|index| (index, 0)));
                 } else if let Some((index, kills)) = queue.pop_front() {
-                    let round = if begun < last_round { self.parallel } else { indices.len() - last_round };
+                    let round = if begun < last_round { self.parallel } else { count - last_round };
                     self.await_lock(index).await?;
-                    let mut child = self.start(plan, index, (cores() / round.max(1)).max(1))?;
+                    // A hopeless one that was to go on after a kill ends as it is.
+                    let child = (!plan.trials[index].is_pruned)
+                        .then(|| self.start(plan, index, (cores() / round.max(1)).max(1)))
+                        .transpose()?;
                     begun += 1;
-                    let shutdown = self.shutdown.clone();
+                    let (shutdown, is_hopeless) = (self.shutdown.clone(), hopeless.entry(index).or_default().clone());
                     running.spawn(async move {
+                        let Some(mut child) = child else { return (index, kills, Ok(ExitStatus::default())) };
                         let status = tokio::select! {
-                            status = child.wait() => status,
-                            () = shutdown.wait() => {
-                                child.id().into_iter().for_each(interrupt);
-                                child.wait().await
-                            }
+                            status = child.wait() => return (index, kills, status),
+                            () = shutdown.wait() => child.id(),
+                            () = is_hopeless.wait() => child.id(),
                         };
-                        (index, kills, status)
+                        status.into_iter().for_each(interrupt);
+                        (index, kills, child.wait().await)
                     });
                 }
             }
-            let Some(done) = running.join_next().await else { break };
+            let done = tokio::select! {
+                done = running.join_next() => Some(done),
+                _ = looks.tick(), if study.is_some() => None,
+            };
+            if let Some(study) = &mut study {
+                study.follow(plan)?.iter().filter_map(|index| hopeless.get(index)).for_each(Shutdown::ask);
+            }
+            let Some(done) = done else { continue };
+            let Some(done) = done else { break };
             let (index, kills, status) = done.context("a trial's task failed")?;
             let status = status.context("a trial cannot be waited for")?;
-            let is_stopped = self.shutdown.asked() && !self.has_all_steps(plan, index);
-            if is_stopped {
+            let is_pruned = plan.trials[index].is_pruned;
+            if self.shutdown.asked() && !is_pruned && !self.has_all_steps(plan, index) {
                 outcome = Ended::Stopped;
-            } else if self.is_unfinished(plan, index, status.code()) && kills < KILLS_MAX {
+            } else if !is_pruned && self.is_unfinished(plan, index, status.code()) && kills < KILLS_MAX {
                 tracing::warn!(trial = index + 1, %status, "a trial was killed or stopped; it goes on from its checkpoint");
                 queue.push_front((index, kills + 1));
             } else {
                 ended(plan, index, code(status))?;
+                study.as_mut().map_or(Ok(()), |study| study.end(plan, plan.trials[index].setting - 1))?;
             }
         }
         Ok(outcome)
