@@ -53,8 +53,8 @@ pub(crate) enum Ended {
 }
 
 impl TrialRunner<'_> {
-    /// Runs trials of a plan, then those that a study proposes, and calls `ended` with each that has ended and its exit code. One
-    /// that stops because the sweep was asked to is not among them.
+    /// Runs trials of a plan, then those that a study proposes. Calls `ended` with each that has ended and its exit code,
+    /// but not with one that stops because the sweep was asked to.
     ///
     /// # Errors
     /// If a process cannot be started, another process has a trial's folder, or `study` or `ended` fails.
