@@ -82,9 +82,10 @@ class StudyTest(unittest.TestCase):
     def test_what_is_refused_says_why(self):
         for requests, part in [
             ([self.open(storage="sheet://x")], "sheet"),
+            ([self.open(trials=9)], "it is not there"),
             ([self.open(), ("ask", {"trial": 3})], "0 trials, and the sweep 3"),
-            ([self.open(trials=9)], "and the sweep 9; choose another --run-dir or --storage"),
-            ([self.open(trials=1, direction="minimize")], "choose another --run-dir or --storage"),
+            ([self.open(), self.open(trials=9)], "and the sweep 9; choose another --run-dir or --storage"),
+            ([self.open(), self.open(direction="minimize")], "choose another --run-dir or --storage"),
             ([self.open(name="other"), ("ask", {"trial": 0}), self.open(name="other")], "1 trials, and the sweep 0"),
         ]:
             with self.subTest(part):

@@ -11,9 +11,12 @@ import sys
 def main(words):
     """Returns an exit code if the binary cannot be started."""
     if words == ["--serve"]:
+        # What a library prints is no answer.
+        answers = os.fdopen(os.dup(1), "w")
+        os.dup2(2, 1)
         from .study import serve
 
-        return serve(sys.stdin, sys.stdout)
+        return serve(sys.stdin, answers)
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--treadmill", default="treadmill")
     own, words = parser.parse_known_args(words)

@@ -1,9 +1,7 @@
 """Study of Optuna, served to `treadmill sweep`: each request is a line of JSON, and so is its answer."""
 
-import contextlib
 import importlib.util
 import json
-import sys
 import warnings
 
 try:
@@ -30,11 +28,17 @@ class Study:
         return {}
 
     def open(self, storage, name, trials, direction, strategy, pruner, seed, steps, keys):
-        """Creates the study, or opens that of a sweep that has begun `trials`. Returns which go on, with their last reports."""
+        """Creates the study, or opens that of a sweep that has begun `trials`. Returns which go on, with their last steps."""
         # Readers such as a dashboard lock a file for a moment.
         options = {"connect_args": {"timeout": 60}} if storage.startswith("sqlite") else {}
-        place = {"storage": optuna.storages.RDBStorage(storage, options), "study_name": name, "direction": direction}
-        self.keys, self.study = keys, optuna.create_study(**place, load_if_exists=True)
+        place = {"storage": optuna.storages.RDBStorage(storage, options), "study_name": name}
+        self.keys = keys
+        try:
+            is_new = trials is None
+            create = optuna.create_study if is_new else optuna.load_study
+            self.study = create(**place, **({"direction": direction, "load_if_exists": True} if is_new else {}))
+        except KeyError:
+            raise ValueError("it is not there; restore the database") from None
         found = self.study.get_trials(deepcopy=False)
         # A killed sweep may not have saved its last trial.
         known = [0] if trials is None else [trials, trials + 1]
@@ -93,10 +97,8 @@ def serve(requests, answers):
     study = Study()
     for line in requests:
         request = json.loads(line)
-        # What a library prints is no answer.
-        with contextlib.redirect_stdout(sys.stderr):
-            try:
-                answer = getattr(study, request.pop("call"))(**request)
-            except Exception as why:  # noqa: BLE001: each database has errors of its own
-                answer = {"error": str(why) or repr(why)}
+        try:
+            answer = getattr(study, request.pop("call"))(**request)
+        except Exception as why:  # noqa: BLE001: each database has errors of its own
+            answer = {"error": str(why) or repr(why)}
         print(json.dumps(answer), file=answers, flush=True)

@@ -118,7 +118,7 @@ fn a_search_is_checked_before_anything_starts() {
     assert_usage(folder.path(), &[&args[..], &storage].concat(), &["--storage", "Optuna"]);
     search(folder.path(), "pruner = 'median'\n[keys]\nrollout.envs = { integers = [8, 64] }\n");
     let output = treadmill(folder.path()).args(args).env("TREADMILL_PYTHON", "false").output().unwrap();
-    assert_refused(&output, 2, &["`treadmill_sweep` is missing", "pip install \"./python[sweep]\""]);
+    assert_refused(&output, 2, &["`treadmill_sweep` does not start", "pip install \"./python[sweep]\""]);
     let output = treadmill(folder.path()).args(args).env("TREADMILL_PYTHON", "no-python").output().unwrap();
     assert_refused(&output, 2, &["`no-python` cannot be started", "TREADMILL_PYTHON"]);
     assert!(!folder.path().join("S").exists());

@@ -80,7 +80,7 @@ fn line_of(run: &RunStatus) -> String {
         }
         (false, Some(done)) => {
             add("motion done", Some(100.0 * done), 0, " %");
-            add("links off by", run.body_error_m, 3, " m");
+            add("links off by", run.body_error_m.map(|error_m| 100.0 * error_m), 1, " cm");
         }
         (false, None) => add("distance", run.distance_mean_m, 1, " m"),
     }
@@ -247,8 +247,8 @@ mod tests {
             ..walks.clone()
         };
         for (run, line, text) in [
-            (walks, "length", "4.0 m at 0.50 m/s"),
-            (imitates, "motion done 95 %, links off by 0.034 m", "95 % of the motion done, links off by 3.4 cm"),
+            (walks, "distance 4.0 m", "4.0 m at 0.50 m/s"),
+            (imitates, "motion done 95 %, links off by 3.4 cm", "95 % of the motion done, links off by 3.4 cm"),
             (obeys, "velocity error 0.12 m/s, yaw rate error 0.50 rad/s", "errors of 0.12 m/s and 0.50 rad/s"),
         ] {
             let run = RunStatus { length_mean: Some(100.0), ..run };

@@ -24,7 +24,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use clap::{Arg, Args};
 use treadmill_humanoid::TaskRegistry;
-use treadmill_runtime::{shutdown::Shutdown, words::quoted};
+use treadmill_runtime::{error_chain, shutdown::Shutdown, words::quoted};
 
 use self::{
     goal::Goal,
@@ -39,7 +39,7 @@ use crate::{
     launch::{
         async_runtime,
         exit_code::Usage,
-        output::say,
+        output::{say, say_error},
         run_args::{AnyRunArgs, NewRunArgs, OwnActorsArgs},
         signals,
     },
@@ -136,9 +136,12 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     }
     let search = plan.search()?;
     let goal = Goal::read(&plan.goal).map_err(Usage)?;
-    let proposer = search.sampler().map(Proposer::start).transpose()?;
+    let proposer = search.sampler().map(|sampler| Proposer::start(sampler, &plan.started_in)).transpose()?;
     let is_new = opened.is_none();
     let folder = opened.map_or_else(|| SweepFolder::create(args.new.run_dir.as_deref()), Ok)?;
+    if is_new {
+        plan.study = folder.root().file_name().unwrap_or_default().to_string_lossy().into_owned();
+    }
     let open = |proposer| Study::open(proposer, &folder, &plan, is_new, &search, &goal);
     let mut study = proposer.map(open).transpose()?;
     folder.save(&plan)?;
@@ -146,16 +149,21 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let shown = report::shorter(folder.root()).display().to_string();
     let (count, parallel) = (search.count(&plan), plan.parallel);
     say(&format!("{shown}: {count} trials, {parallel} at once; their output is in {shown}/trial-N.log"));
-    let ended = async_runtime::run(async {
+    let (ended, importance) = async_runtime::run(async {
         let shutdown = Shutdown::default();
         let first = "stopping: trials save after this update; press Ctrl-C again to stop at once";
         signals::listen(shutdown.clone(), first)?;
-        train(&folder, &mut plan, &search, study.as_mut(), &mut results, &shutdown).await
+        let ended = train(&folder, &mut plan, &search, study.as_mut(), &mut results, &shutdown).await?;
+        let is_whole = matches!(ended, Ended::All);
+        let importance = study.as_mut().filter(|_| is_whole).map_or_else(|| Ok(BTreeMap::new()), Study::importance);
+        anyhow::Ok((ended, importance))
     })?;
     let go_on = format!("treadmill sweep --resume {}", quoted(&shown));
     match ended {
         Ended::All => {}
         Ended::Stopped => {
+            // Forks have been added.
+            let count = search.count(&plan);
             let left = plan.unfinished().len() + count - plan.trials.len();
             let stopped = format!("stopped with {left} of {count} trials to go");
             // To whatever runs a service, success means that all trials have ended.
@@ -167,7 +175,10 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
             "the disk of `{shown}` is full, so no further trial begins; free some space, then go on with `{go_on}`"
         ),
     }
-    let importance = study.map_or_else(|| Ok(BTreeMap::new()), |mut study| study.importance())?;
+    let importance = importance.unwrap_or_else(|why| {
+        say_error(&format!("the importance of the keys is missing: {}", error_chain(&*why)));
+        BTreeMap::new()
+    });
     report::print_end(&plan, &results, &importance);
     if args.any.json {
         say(&report::as_json(&plan, &results, &importance).to_string());

@@ -48,6 +48,9 @@ pub(crate) struct Plan {
     /// Database of Optuna, if not a file in the sweep's folder.
     #[serde(default)]
     pub(crate) storage: Option<String>,
+    /// Name of its study there: that of the sweep's folder at first.
+    #[serde(default)]
+    pub(crate) study: String,
     /// Trials at once.
     pub(crate) parallel: usize,
     /// Whether one actor runs in lock-step.

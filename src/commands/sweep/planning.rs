@@ -33,7 +33,7 @@ use crate::{
 const WRONG_MAX: usize = 5;
 
 /// Returns name and text of the search file, if one is given.
-pub(super) fn read_file(args: &SweepArgs) -> anyhow::Result<Option<(String, String)>> {
+fn read_file(args: &SweepArgs) -> anyhow::Result<Option<(String, String)>> {
     let read = |path: &PathBuf| -> anyhow::Result<(String, String)> {
         let name = path.display().to_string();
         Ok((name.clone(), fs::read_to_string(path).with_context(|| format!("cannot read `{name}`"))?))
@@ -70,6 +70,7 @@ pub(super) fn plan_sweep(args: &SweepArgs, flags: Vec<String>, tasks: &TaskRegis
         file,
         settings: args.trials,
         storage: args.storage.clone(),
+        study: String::new(),
         parallel: args.parallel.map_or_else(trials_at_once, |parallel| parallel as usize),
         deterministic: config.run.deterministic,
         connect: args.connect.clone(),

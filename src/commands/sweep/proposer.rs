@@ -4,14 +4,14 @@
 use std::{
     io::{BufRead, BufReader, Write},
     os::unix::process::CommandExt,
-    path::PathBuf,
+    path::{Path, PathBuf},
     process::{ChildStdin, ChildStdout, Stdio},
 };
 
 use anyhow::Context;
 use serde_json::{Value, json};
 
-use crate::launch::{child, exit_code::Usage};
+use crate::launch::{child, exit_code::Usage, supervisor::own_program};
 
 /// Variable that names the interpreter.
 const PYTHON: &str = "TREADMILL_PYTHON";
@@ -24,16 +24,19 @@ pub(crate) struct Proposer {
 }
 
 impl Proposer {
-    /// Starts the process.
+    /// Starts the process in `folder`, from which paths of a database count.
     ///
     /// # Errors
     /// If Python, the module or a package that `strategy` needs is missing.
-    pub(crate) fn start(strategy: &str) -> anyhow::Result<Self> {
-        let python = std::env::var(PYTHON).unwrap_or_else(|_| "python3".to_string());
+    pub(crate) fn start(strategy: &str, folder: &Path) -> anyhow::Result<Self> {
+        // A wheel installs the program beside the Python that has its packages.
+        let beside = own_program()?.with_file_name("python3");
+        let default = if beside.exists() { beside.display().to_string() } else { "python3".to_string() };
+        let python = std::env::var(PYTHON).unwrap_or(default);
         let mut command = child::command(&PathBuf::from(&python), 0);
         command.args(["-m", "treadmill_sweep", "--serve"]).stdin(Stdio::piped()).stdout(Stdio::piped());
         // Ctrl-C reaches only the sweep, which asks for more afterwards.
-        let child = command.process_group(0).spawn();
+        let child = command.current_dir(folder).process_group(0).spawn();
         let mut child =
             child.map_err(|why| Usage(format!("`{python}` cannot be started ({why}); name a Python by {PYTHON}")))?;
         let (Some(requests), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
@@ -44,7 +47,7 @@ impl Proposer {
         let why = match checked {
             Ok(answer) if answer["error"].is_null() => return Ok(proposer),
             Ok(answer) => answer["error"].as_str().unwrap_or_default().to_string(),
-            Err(_) => "`treadmill_sweep` is missing; install it: pip install \"./python[sweep]\"".to_string(),
+            Err(_) => "`treadmill_sweep` does not start; if it is missing: pip install \"./python[sweep]\"".to_string(),
         };
         Err(Usage(format!("`{}`, the Python of this search: {why}", proposer.python)).into())
     }
@@ -54,8 +57,7 @@ impl Proposer {
     /// # Errors
     /// If Optuna refuses the request, or the process has ended.
     pub(crate) fn call(&mut self, request: &Value) -> anyhow::Result<Value> {
-        let answer =
-            self.exchange(request).with_context(|| format!("`{} -m treadmill_sweep` has ended", self.python))?;
+        let answer = self.exchange(request).with_context(|| format!("`{} -m treadmill_sweep` fails", self.python))?;
         match answer["error"].as_str() {
             Some(why) => Err(anyhow::anyhow!("{why}")),
             None => Ok(answer),
@@ -65,7 +67,7 @@ impl Proposer {
     fn exchange(&mut self, request: &Value) -> anyhow::Result<Value> {
         self.requests.write_all(format!("{request}\n").as_bytes())?;
         let mut line = String::new();
-        self.answers.read_line(&mut line)?;
+        anyhow::ensure!(self.answers.read_line(&mut line)? > 0, "it has ended");
         serde_json::from_str(&line).with_context(|| format!("no answer to {request}"))
     }
 }

@@ -151,6 +151,7 @@ pub(crate) fn print_end(plan: &Plan, results: &SweepResults, importance: &BTreeM
 pub(crate) fn as_json(plan: &Plan, results: &SweepResults, importance: &BTreeMap<String, f64>) -> serde_json::Value {
     let setting = |found: SettingResult| {
         json!({
+            "setting": found.setting,
             "keys": plan.trials[found.trials[0]].keys.iter().cloned().collect::<BTreeMap<_, _>>(),
             "trials": found.trials.iter().map(|index| index + 1).collect::<Vec<_>>(),
             "mean": found.mean(),

@@ -51,7 +51,7 @@ impl<'a> Study<'a> {
         goal: &'a Goal,
     ) -> anyhow::Result<Self> {
         let Strategy::Optuna { sampler, pruner } = search.strategy else { anyhow::bail!("no strategy of Optuna") };
-        let name = folder.root().file_name().unwrap_or_default().to_string_lossy();
+        let name = &plan.study;
         let own = || format!("sqlite:///{}", folder.root().join("study.db").display());
         let storage = plan.storage.clone().unwrap_or_else(own);
         let begun = plan.trials.len() / search.seeds;
@@ -68,6 +68,11 @@ impl<'a> Study<'a> {
         let opened = study.proposer.call(&request);
         let opened = opened.with_context(|| format!("the study `{name}` cannot be opened at `{storage}`"))?;
         let open: Vec<(usize, u64)> = serde_json::from_value(opened["begun"].clone())?;
+        let is_unfinished = |number: usize| plan.trials[number * search.seeds].exit.is_none();
+        if let Some(lost) = (0..begun).find(|number| is_unfinished(*number) && !open.iter().any(|(it, _)| it == number))
+        {
+            anyhow::bail!("trial {lost} of the study `{name}` has ended by another program; begin a new sweep");
+        }
         // One that is not in the plan is asked for again.
         for (number, reported) in open.into_iter().filter(|(number, _)| *number < begun) {
             study.add(number, reported);
@@ -103,11 +108,11 @@ impl<'a> Study<'a> {
         Ok(self.trials(number))
     }
 
-    /// Reports what the trials have logged. Returns those that are hopeless.
+    /// Reports what the trials have logged. Returns those that are hopeless, but not the one that has just `ended`.
     ///
     /// # Errors
     /// If a log cannot be read, Optuna fails, or the folder cannot be written.
-    pub(crate) fn follow(&mut self, plan: &mut Plan) -> anyhow::Result<Vec<usize>> {
+    pub(crate) fn follow(&mut self, plan: &mut Plan, ended: Option<usize>) -> anyhow::Result<Vec<usize>> {
         let (interval, seeds, mut hopeless) = ((plan.steps / REPORTS).max(1), self.search.seeds, Vec::new());
         for setting in &mut self.active {
             let trials = setting.number * seeds..(setting.number + 1) * seeds;
@@ -129,7 +134,7 @@ impl<'a> Study<'a> {
                 // One that has all its steps only reports, because others are compared with it.
                 for (index, log) in trials.clone().zip(&setting.logs) {
                     let trial = &mut plan.trials[index];
-                    trial.is_pruned = trial.exit.is_none() && log.step < plan.steps;
+                    trial.is_pruned = trial.exit.is_none() && ended != Some(index) && log.step < plan.steps;
                     hopeless.extend(trial.is_pruned.then_some(index));
                 }
             }

@@ -11,7 +11,7 @@ use std::{
 };
 
 use anyhow::Context;
-use tokio::{process::Command, task::JoinSet};
+use tokio::{process::Command, task::JoinSet, time::MissedTickBehavior};
 use treadmill_runtime::{machine::cores, run_folder::RunFolder, run_lock, shutdown::Shutdown};
 
 use super::{
@@ -69,6 +69,7 @@ impl TrialRunner<'_> {
         let mut running = JoinSet::new();
         let mut hopeless: BTreeMap<usize, Shutdown> = BTreeMap::new();
         let mut looks = tokio::time::interval(FOLLOW_EVERY);
+        looks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         // Trials of the last round have the cores among themselves.
         let count = indices.len() + study.as_ref().map_or(0, |study| study.left(plan));
         let last_round = count - count % self.parallel;
@@ -111,7 +112,8 @@ impl TrialRunner<'_> {
                 _ = looks.tick(), if study.is_some() => None,
             };
             if let Some(study) = &mut study {
-                study.follow(plan)?.iter().filter_map(|index| hopeless.get(index)).for_each(Shutdown::ask);
+                let ended = done.as_ref().and_then(|done| Some(done.as_ref()?.as_ref().ok()?.0));
+                study.follow(plan, ended)?.iter().filter_map(|index| hopeless.get(index)).for_each(Shutdown::ask);
             }
             let Some(done) = done else { continue };
             let Some(done) = done else { break };

@@ -5,10 +5,11 @@ use crate::model::mirror::SignedPermutation;
 use crate::observation::ObservationTerm;
 use crate::randomisation::SensorNoise;
 
-/// Signs in the mirror of a number, of a vector, and of an angular velocity: vectors keep their sign along x and z; angular
-/// velocities are pseudo-vectors and keep it along y.
+/// Sign of a number in the mirror.
 pub(super) const SCALAR: &[f32] = &[1.0];
+/// Signs of a vector, which keeps them along x and z.
 pub(super) const VECTOR: &[f32] = &[1.0, -1.0, 1.0];
+/// Signs of an angular velocity, a pseudo-vector, which keeps them along y.
 pub(super) const AXIAL: &[f32] = &[-1.0, 1.0, -1.0];
 
 /// Task that shows its observation by a table of terms.
@@ -19,7 +20,7 @@ pub trait Shown: 'static {
 
 /// Parts of which each has equally many entries of a term.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
+pub(super) enum TermPart {
     /// The robot as a whole.
     Whole,
     /// Joints of the action.
@@ -50,7 +51,7 @@ pub struct TermRow<S: Shown> {
     pub deploy_params: fn(&EnvironmentConfig) -> String,
     /// Whether only the critic sees it.
     is_privileged: bool,
-    part: Part,
+    part: TermPart,
     /// Signs in the mirror of the entries of a part.
     signs: &'static [f32],
     /// How often its entries follow each other: 0 leaves the term out.
@@ -74,7 +75,7 @@ impl<S: Shown> TermRow<S> {
             frame,
             deploy_params: |_| "{}".to_owned(),
             is_privileged: false,
-            part: Part::Whole,
+            part: TermPart::Whole,
             signs,
             times: |_| 1,
             write,
@@ -82,7 +83,7 @@ impl<S: Shown> TermRow<S> {
     }
 
     /// Gives each of these parts such entries.
-    pub(super) const fn of_each(self, part: Part) -> Self {
+    pub(super) const fn of_each(self, part: TermPart) -> Self {
         Self { part, ..self }
     }
 
@@ -101,6 +102,7 @@ impl<S: Shown> TermRow<S> {
         Self { mjlab_name, ..self }
     }
 
+    /// Gives the term parameters in `deploy.yaml`.
     pub(super) const fn with_deploy_params(self, deploy_params: fn(&EnvironmentConfig) -> String) -> Self {
         Self { deploy_params, ..self }
     }
@@ -121,7 +123,7 @@ impl<S: Shown> Layout<S> {
         table: &'static [TermRow<S>],
         config: &EnvironmentConfig,
         history: usize,
-        parts: impl Fn(Part) -> usize,
+        parts: impl Fn(TermPart) -> usize,
     ) -> Self {
         let observed = |is_privileged: bool| {
             table.iter().filter(move |row| row.is_privileged == is_privileged && (row.times)(config) > 0)
@@ -142,7 +144,7 @@ impl<S: Shown> Layout<S> {
     }
 
     /// Returns the mirror image of an observation, for these images of the parts; `None` if those of a term have none.
-    pub(super) fn mirrored(&self, images: impl Fn(Part) -> Option<SignedPermutation>) -> Option<SignedPermutation> {
+    pub(super) fn mirrored(&self, images: impl Fn(TermPart) -> Option<SignedPermutation>) -> Option<SignedPermutation> {
         let mut mirrored = SignedPermutation::new();
         for (row, term) in self.rows.iter().zip(&self.terms) {
             let (images, width) = (images(row.part)?, row.signs.len());

@@ -7,7 +7,7 @@ use super::links::Compared;
 use crate::config::EnvironmentConfig;
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
-use crate::task::term::{AXIAL, Layout, Part, SCALAR, Shown, TermRow, VECTOR, unsigned};
+use crate::task::term::{AXIAL, Layout, SCALAR, Shown, TermPart, TermRow, VECTOR, unsigned};
 
 /// Noise of where the robot is and how fast, in units of that of its hinges: estimators drift. mjlab's ratios, rounded.
 const PLACE_NOISE: f64 = 10.0;
@@ -26,7 +26,7 @@ pub const MOTION_OBSERVATION: &[Row] = &[
         motors().for_each(|hinge| write(view.task.reference.positions[step][7 + hinge]));
         motors().for_each(|hinge| write(view.task.reference.velocities[step][6 + hinge]));
     })
-    .of_each(Part::Joint)
+    .of_each(TermPart::Joint)
     .repeated(|_| 2),
     Row::new("command_future", "rad", "joint", SCALAR, |view, _, write| {
         for step in view.task.further_steps() {
@@ -35,7 +35,7 @@ pub const MOTION_OBSERVATION: &[Row] = &[
             }
         }
     })
-    .of_each(Part::Joint)
+    .of_each(TermPart::Joint)
     .repeated(|config| config.motion.future_steps as usize),
     Row::new("motion_anchor_pos_b", "m", "anchor", VECTOR, |view, noise, write| {
         view.motion_in_anchor.translation.vector.iter().for_each(|part| write(part + PLACE_NOISE * noise.position()));
@@ -57,17 +57,17 @@ pub const MOTION_OBSERVATION: &[Row] = &[
             write(view.physics.joint_angles()[*hinge] - default_rad + error_rad);
         }
     })
-    .of_each(Part::Joint),
+    .of_each(TermPart::Joint),
     Row::new("joint_vel", "rad/s", "joint", SCALAR, |view, noise, write| {
         for (hinge, _, _) in &view.task.motors {
             write(view.physics.joint_rates()[*hinge] + noise.velocity());
         }
     })
-    .of_each(Part::Joint),
+    .of_each(TermPart::Joint),
     Row::new("actions", "action_scale", "joint", SCALAR, |view, _, write| {
         view.task.actions.iter().copied().for_each(write);
     })
-    .of_each(Part::Joint),
+    .of_each(TermPart::Joint),
     Row::new("motion_anchor_pos_b", "m", "anchor", VECTOR, |view, _, write| {
         view.motion_in_anchor.translation.vector.iter().copied().for_each(write);
     })
@@ -82,7 +82,7 @@ pub const MOTION_OBSERVATION: &[Row] = &[
             place.translation.vector.iter().copied().for_each(&mut *write);
         }
     })
-    .of_each(Part::Link)
+    .of_each(TermPart::Link)
     .privileged(),
     Row::new("body_ori", "1", "anchor", TURN, |view, _, write| {
         for (link, default) in view.task.reference.compared.links.iter().zip(&view.task.default_turns) {
@@ -90,7 +90,7 @@ pub const MOTION_OBSERVATION: &[Row] = &[
             columns(&turn).into_iter().for_each(&mut *write);
         }
     })
-    .of_each(Part::Link)
+    .of_each(TermPart::Link)
     .privileged(),
     Row::new("end_contact", "1", "end", SCALAR, |view, _, write| {
         for end in &view.task.reference.compared.ends {
@@ -98,7 +98,7 @@ pub const MOTION_OBSERVATION: &[Row] = &[
             write(f64::from(u8::from(view.physics.contact_wrench(link).0.norm() > 1.0)));
         }
     })
-    .of_each(Part::End)
+    .of_each(TermPart::End)
     .privileged(),
 ];
 
@@ -141,24 +141,24 @@ fn columns(turn: &UnitQuaternion<f64>) -> [f64; 6] {
 /// Returns the layout that a configuration selects, for a number of joints.
 pub(super) fn layout(config: &EnvironmentConfig, compared: &Compared, joints: usize) -> Layout<MotionTask> {
     Layout::new(MOTION_OBSERVATION, config, 1, |part| match part {
-        Part::Joint => joints,
-        Part::Link => compared.links.len(),
-        Part::End => compared.ends.len(),
-        Part::Whole | Part::Foot | Part::ScanPoint => 1,
+        TermPart::Joint => joints,
+        TermPart::Link => compared.links.len(),
+        TermPart::End => compared.ends.len(),
+        TermPart::Whole | TermPart::Foot | TermPart::ScanPoint => 1,
     })
 }
 
 /// Returns the images of the parts of a robot with this mirror; `None` if the image of a compared link is not compared.
-pub(super) fn image(part: Part, compared: &Compared, robot: &Mirror) -> Option<SignedPermutation> {
+pub(super) fn image(part: TermPart, compared: &Compared, robot: &Mirror) -> Option<SignedPermutation> {
     let Compared { links, ends, .. } = compared;
     let place = |link: &usize| links.iter().position(|other| *other == robot.links[*link]);
     match part {
-        Part::Joint => Some(robot.action.clone()),
-        Part::Link => Some(unsigned(links.iter().map(place).collect::<Option<Vec<_>>>()?)),
-        Part::End => {
+        TermPart::Joint => Some(robot.action.clone()),
+        TermPart::Link => Some(unsigned(links.iter().map(place).collect::<Option<Vec<_>>>()?)),
+        TermPart::End => {
             let image = |end: &usize| ends.iter().position(|other| Some(*other) == place(&links[*end]));
             Some(unsigned(ends.iter().map(image).collect::<Option<Vec<_>>>()?))
         }
-        Part::Whole | Part::Foot | Part::ScanPoint => Some(unsigned([0])),
+        TermPart::Whole | TermPart::Foot | TermPart::ScanPoint => Some(unsigned([0])),
     }
 }

@@ -10,7 +10,7 @@ use super::scan::{SCAN_MAX_M, SCAN_POINTS, opposite_point};
 use crate::config::EnvironmentConfig;
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
-use crate::task::term::{AXIAL, Layout, Part, SCALAR, Shown, TermRow, VECTOR, unsigned};
+use crate::task::term::{AXIAL, Layout, SCALAR, Shown, TermPart, TermRow, VECTOR, unsigned};
 
 type Row = TermRow<VelocityTask>;
 
@@ -33,19 +33,19 @@ pub const TERMS: &[Row] = &[
             write(view.physics.joint_angles()[*hinge] - default_rad + error_rad);
         }
     })
-    .of_each(Part::Joint)
+    .of_each(TermPart::Joint)
     .with_mjlab_name("joint_pos"),
     Row::new("joint_vel_rel", "rad/s", "joint", SCALAR, |view, noise, write| {
         for (hinge, _, _) in &view.task.motors {
             write(view.physics.joint_rates()[*hinge] + noise.velocity());
         }
     })
-    .of_each(Part::Joint)
+    .of_each(TermPart::Joint)
     .with_mjlab_name("joint_vel"),
     Row::new("last_action", "action_scale", "joint", SCALAR, |view, _, write| {
         view.task.actions.iter().copied().for_each(write);
     })
-    .of_each(Part::Joint)
+    .of_each(TermPart::Joint)
     .with_mjlab_name("actions"),
     // Half a period later, each foot does what the other one did.
     Row::new("gait_phase", "1", "sine and cosine", &[-1.0, -1.0], |view, _, write| {
@@ -66,7 +66,7 @@ pub const TERMS: &[Row] = &[
     Row::new("height_scan", "m", "heading", SCALAR, |view, noise, write| {
         view.scan().for_each(|height_m| write(height_m + noise.position()));
     })
-    .of_each(Part::ScanPoint)
+    .of_each(TermPart::ScanPoint)
     .repeated(|config| config.velocity.height_scan.into()),
     Row::new("base_lin_vel", "m/s", "heading", VECTOR, |view, _, write| {
         view.base.velocity_mps.iter().copied().for_each(write);
@@ -76,20 +76,20 @@ pub const TERMS: &[Row] = &[
     Row::new("feet_contact", "1", "foot", SCALAR, |view, _, write| {
         view.task.feet.iter().for_each(|foot| write(f64::from(u8::from(foot.stands))));
     })
-    .of_each(Part::Foot)
+    .of_each(TermPart::Foot)
     .privileged(),
     Row::new("feet_air_time", "s", "foot", SCALAR, |view, _, write| {
         view.task.feet.iter().for_each(|foot| write(foot.air_s));
     })
-    .of_each(Part::Foot)
+    .of_each(TermPart::Foot)
     .privileged(),
     Row::new("feet_lift", "m", "foot", SCALAR, |view, _, write| {
         view.task.feet.iter().for_each(|foot| write(foot.lift_m));
     })
-    .of_each(Part::Foot)
+    .of_each(TermPart::Foot)
     .privileged(),
     Row::new("height_scan", "m", "heading", SCALAR, |view, _, write| view.scan().for_each(write))
-        .of_each(Part::ScanPoint)
+        .of_each(TermPart::ScanPoint)
         .privileged()
         .repeated(|config| (!config.ground.kinds.is_empty()).into()),
 ];
@@ -124,19 +124,19 @@ impl<'a> VelocityView<'a> {
 /// Returns the layout that a configuration selects, for a number of joints.
 pub(super) fn layout(config: &EnvironmentConfig, joints: usize) -> Layout<VelocityTask> {
     Layout::new(TERMS, config, config.velocity.history as usize, |part| match part {
-        Part::Joint => joints,
-        Part::Foot => FEET,
-        Part::ScanPoint => SCAN_POINTS,
-        Part::Whole | Part::Link | Part::End => 1,
+        TermPart::Joint => joints,
+        TermPart::Foot => FEET,
+        TermPart::ScanPoint => SCAN_POINTS,
+        TermPart::Whole | TermPart::Link | TermPart::End => 1,
     })
 }
 
 /// Returns the images of the parts of a robot with this mirror; the feet exchange places.
-pub(super) fn image(part: Part, robot: &Mirror) -> SignedPermutation {
+pub(super) fn image(part: TermPart, robot: &Mirror) -> SignedPermutation {
     match part {
-        Part::Joint => robot.action.clone(),
-        Part::Foot => unsigned((0..FEET).rev()),
-        Part::ScanPoint => unsigned((0..SCAN_POINTS).map(opposite_point)),
-        Part::Whole | Part::Link | Part::End => unsigned([0]),
+        TermPart::Joint => robot.action.clone(),
+        TermPart::Foot => unsigned((0..FEET).rev()),
+        TermPart::ScanPoint => unsigned((0..SCAN_POINTS).map(opposite_point)),
+        TermPart::Whole | TermPart::Link | TermPart::End => unsigned([0]),
     }
 }
