@@ -162,7 +162,6 @@ pub fn run(args: &SweepArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     match ended {
         Ended::All => {}
         Ended::Stopped => {
-            // Forks have been added.
             let count = search.count(&plan);
             let left = plan.unfinished().len() + count - plan.trials.len();
             let stopped = format!("stopped with {left} of {count} trials to go");
