@@ -34,9 +34,10 @@ class Study:
         place = {"storage": optuna.storages.RDBStorage(storage, options), "study_name": name}
         self.keys = keys
         try:
-            is_new = trials is None
-            create = optuna.create_study if is_new else optuna.load_study
-            self.study = create(**place, **({"direction": direction, "load_if_exists": True} if is_new else {}))
+            if trials is None:
+                self.study = optuna.create_study(**place, direction=direction, load_if_exists=True)
+            else:
+                self.study = optuna.load_study(**place)
         except KeyError:
             raise ValueError("it is not there; restore the database") from None
         found = self.study.get_trials(deepcopy=False)
