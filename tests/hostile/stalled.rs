@@ -9,7 +9,7 @@ use std::{
     os::fd::AsRawFd,
     sync::{
         Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     time::Duration,
 };
@@ -60,17 +60,17 @@ impl Relay {
         relay
     }
 
-    /// Returns how many bytes the learner sent that the client did not read, at least if they are few.
-    fn unread_bytes(&self) -> usize {
+    /// Adds the bytes that the learner sent and the client did not read, until there are enough from all clients. Small
+    /// buffers make it slow to read all.
+    fn count_unread_bytes(&self, count: &AtomicUsize) {
         let mut learner = self.learner.lock().unwrap().take().expect("a connection");
         learner.set_read_timeout(Some(Duration::from_secs(1))).unwrap();
-        let (mut count, mut buffer) = (0, vec![0; 4096]);
-        while count < UNREAD_BYTES_MIN
+        let mut buffer = vec![0; 4096];
+        while count.load(Ordering::Relaxed) < UNREAD_BYTES_MIN
             && let Ok(length @ 1..) = learner.read(&mut buffer)
         {
-            count += length;
+            count.fetch_add(length, Ordering::Relaxed);
         }
-        count
     }
 }
 
@@ -161,10 +161,13 @@ fn clients_that_read_no_replies_do_not_hold_up_others() {
     clients.iter().for_each(send_requests);
     assert_served(&fleet);
     fleet.assert_trains();
-    let unread: usize = std::thread::scope(|scope| {
-        let counts: Vec<_> = relays.iter().map(|relay| scope.spawn(|| relay.unread_bytes())).collect();
-        counts.into_iter().map(|count| count.join().unwrap()).sum()
+    let unread = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for relay in &relays {
+            scope.spawn(|| relay.count_unread_bytes(&unread));
+        }
     });
+    let unread = unread.into_inner();
     assert!(unread >= UNREAD_BYTES_MIN, "{unread} bytes of replies waited");
     drop(clients);
     fleet.end();
