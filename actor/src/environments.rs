@@ -313,6 +313,7 @@ fn finish_step(
         ground_kind: difficulty.ground_kind,
         ground_level: difficulty.ground_level,
         command_factor: difficulty.command_factor,
+        failed_step: difficulty.failed_step,
     });
 }
 

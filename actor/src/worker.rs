@@ -218,6 +218,7 @@ impl<'a> Membership<'a> {
             ground_kinds: &bundle.curriculum_kinds,
             ground_levels: &bundle.curriculum_levels,
             command_factors: &bundle.curriculum_factors,
+            failed_steps: &bundle.curriculum_failures,
         });
         let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
         let found = (environments.observation_size(), environments.action_size());

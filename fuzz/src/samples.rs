@@ -75,6 +75,7 @@ fn fragment_message() -> Fragment {
             ground_kind: Some(1),
             ground_level: Some(1.0),
             command_factor: Some(0.5),
+            failed_step: Some(7),
         }],
         settled_through: 1,
         actor_state: None,
@@ -131,6 +132,7 @@ pub fn bundle() -> Vec<u8> {
         curriculum_kinds: vec![1],
         curriculum_levels: vec![2],
         curriculum_factors: vec![0.5],
+        curriculum_failures: vec![7],
     }
     .encode()
     .expect("a valid message")

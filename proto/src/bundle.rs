@@ -103,6 +103,8 @@ pub struct PolicyBundle {
     pub curriculum_levels: Vec<u32>,
     /// Factors on the ranges of commands of the last episodes.
     pub curriculum_factors: Vec<f32>,
+    /// Control steps, counted over all motions, at which the last episodes failed to imitate them.
+    pub curriculum_failures: Vec<u32>,
 }
 
 impl PolicyBundle {
@@ -145,7 +147,11 @@ impl PolicyBundle {
         if levels != kinds {
             return Err(Malformed::length("curriculum_levels", levels, format!("{kinds}, one for each kind")));
         }
-        for (field, count) in [("curriculum_kinds", kinds), ("curriculum_factors", self.curriculum_factors.len())] {
+        for (field, count) in [
+            ("curriculum_kinds", kinds),
+            ("curriculum_factors", self.curriculum_factors.len()),
+            ("curriculum_failures", self.curriculum_failures.len()),
+        ] {
             if count > CURRICULUM_MAX {
                 return Err(Malformed::field(field, count, format!("at most {CURRICULUM_MAX} numbers")));
             }
@@ -164,6 +170,7 @@ impl PolicyBundle {
             curriculum_kinds: Vec::new(),
             curriculum_levels: Vec::new(),
             curriculum_factors: Vec::new(),
+            curriculum_failures: Vec::new(),
             ..self.clone()
         }
     }
@@ -176,7 +183,7 @@ impl PolicyBundle {
             clone self [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
                 privileged_size, observation_mirror, action_mirror, curriculum_kinds, curriculum_levels,
-                curriculum_factors],
+                curriculum_factors, curriculum_failures],
             {
                 version: Some(self.version),
                 observation_mean: planes::to_bytes(&self.observation_mean),
@@ -202,7 +209,7 @@ impl PolicyBundle {
             message [run, observation_size, action_size, hidden, weights, observation_clip, config_hash, config_toml,
                 model_xml, checksum, actor_state, fragment_steps, wire_version, wire_version_min, physics_version,
                 privileged_size, observation_mirror, action_mirror, curriculum_kinds, curriculum_levels,
-                curriculum_factors],
+                curriculum_factors, curriculum_failures],
             {
                 version: version::required(message.version)?,
                 observation_mean: plane("observation_mean", &message.observation_mean)?,
@@ -224,6 +231,7 @@ fn check_counts(bytes: &[u8]) -> Result<(), Malformed> {
         (23, "curriculum_levels", CURRICULUM_MAX, 0),
         // Four bytes each.
         (24, "curriculum_factors", CURRICULUM_MAX, 0),
+        (25, "curriculum_failures", CURRICULUM_MAX, 0),
     ];
     scan::all(BUNDLE, Cursor::whole(bytes), |field| {
         if let Some((_, _, _, size)) = lists.iter_mut().find(|(number, ..)| *number == field.number) {
@@ -270,6 +278,7 @@ mod tests {
             curriculum_kinds: vec![0, 2],
             curriculum_levels: vec![7, 300],
             curriculum_factors: vec![0.5],
+            curriculum_failures: vec![400_000],
         }
     }
 
@@ -313,6 +322,7 @@ mod tests {
             curriculum_kinds: whole.curriculum_kinds.clone(),
             curriculum_levels: whole.curriculum_levels.clone(),
             curriculum_factors: whole.curriculum_factors.clone(),
+            curriculum_failures: whole.curriculum_failures.clone(),
             ..PolicyBundle::decode(short.encode().unwrap()).unwrap()
         };
         assert_eq!(restored, whole);
@@ -331,6 +341,8 @@ mod tests {
         let many = vec![1; CURRICULUM_MAX + 1];
         let bad = PolicyBundle { curriculum_kinds: many.clone(), curriculum_levels: many, ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("curriculum_kinds"));
+        let bad = PolicyBundle { curriculum_failures: vec![1; CURRICULUM_MAX + 1], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("curriculum_failures"));
         let bad = PolicyBundle { curriculum_factors: vec![f32::NAN], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("curriculum_factors"));
         let mut bad = sample();

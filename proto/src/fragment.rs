@@ -62,6 +62,8 @@ pub struct Episode {
     pub ground_level: Option<f64>,
     /// Factor on the ranges of commands; `None` where the task has no such curriculum.
     pub command_factor: Option<f64>,
+    /// Control step, counted over all motions, at which it failed to imitate them; `None` otherwise.
+    pub failed_step: Option<u32>,
 }
 
 /// Rollout fragment. Planes are time-major: entry `[t][n][i]` is at `((t * N) + n) * width + i`.
@@ -346,7 +348,8 @@ impl From<&Episode> for wire::Episode {
         let cause = CAUSES.iter().find(|(ours, _)| *ours == episode.cause).map(|(_, wire)| *wire);
         message!(
             Self,
-            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor],
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor,
+                failed_step],
             { cause: cause.unwrap_or_default().into() }
         )
     }
@@ -360,7 +363,8 @@ impl TryFrom<&wire::Episode> for Episode {
         let cause = cause.ok_or_else(|| Malformed::field("episodes.cause", episode.cause, "1 to 4"))?;
         Ok(message!(
             Self,
-            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor],
+            episode [return_sum, length, distance_m, velocity_mean_mps, ground_kind, ground_level, command_factor,
+                failed_step],
             { cause: cause }
         ))
     }

@@ -31,6 +31,7 @@ pub(crate) fn sample() -> Fragment {
             ground_kind: Some(2),
             ground_level: Some(3.0),
             command_factor: None,
+            failed_step: None,
         }],
         settled_through: 1,
         actor_state: Some(state("a1", 3)),

@@ -64,6 +64,9 @@ pub struct EpisodeReport {
     /// Factor on the ranges of commands; absent where the task has no such curriculum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command_factor: Option<f64>,
+    /// Control step, counted over all motions, at which it failed to imitate them; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failed_step: Option<u32>,
 }
 
 impl EpisodeReport {
@@ -79,6 +82,7 @@ impl EpisodeReport {
             cause: episode.cause.name().to_string(),
             ground_level: episode.ground_level,
             command_factor: episode.command_factor,
+            failed_step: episode.failed_step,
         }
     }
 
@@ -111,6 +115,7 @@ mod tests {
             ground_kind: None,
             ground_level: None,
             command_factor: None,
+            failed_step: None,
         };
         assert_eq!(
             serde_json::to_string(&EpisodeReport::new("r", "a", &episode)).unwrap(),

@@ -43,6 +43,7 @@ fn fragment() -> Fragment {
         ground_kind: None,
         ground_level: None,
         command_factor: None,
+        failed_step: None,
     };
     Fragment {
         run: "walk-1".into(),

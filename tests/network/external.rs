@@ -48,6 +48,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         ground_kind: None,
         ground_level: None,
         command_factor: None,
+        failed_step: None,
     };
     let batch = batch(bundle, "count-1", sequence);
     Fragment { episodes: vec![episode; batch.rewards.len()], ..batch }

@@ -52,11 +52,12 @@ fn names_in(text: &str) -> BTreeSet<String> {
 }
 
 /// Metrics that only runs of the velocity task log.
-const OF_OTHER_TASKS: [&str; 9] = [
+const OF_OTHER_TASKS: [&str; 10] = [
     "treadmill_eval_velocity_error_meters_per_second",
     "treadmill_eval_yaw_rate_error_radians_per_second",
     "treadmill_rollout_command_factor",
     "treadmill_rollout_ground_level",
+    "treadmill_rollout_failure_entropy",
     "treadmill_eval_body_error_meters",
     "treadmill_eval_body_angle_error_radians",
     "treadmill_eval_anchor_error_meters",

@@ -10,7 +10,7 @@ use super::CheckpointError;
 
 const MAGIC: &[u8; 8] = b"TREADMIL";
 /// Version of the format, raised whenever the state's fields change: bincode files do not describe themselves.
-pub const FORMAT: u32 = 10;
+pub const FORMAT: u32 = 11;
 const CHECKSUM_BYTES: usize = 4;
 const HEADER_BYTES: usize = 8 + 4 + 8 + CHECKSUM_BYTES;
 /// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim

@@ -131,6 +131,7 @@ mod tests {
             ground_kind: None,
             ground_level: None,
             command_factor: None,
+            failed_step: None,
         }
     }
 

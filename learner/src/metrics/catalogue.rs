@@ -103,6 +103,8 @@ pub const METRICS: &[MetricRow] = metrics! {
     "rollout/ground_level", "–", "" => Sometimes(|r| r.state.episodes.means()?.ground_level);
     /// Mean factor on the ranges of commands, 0.4 to 1, with `velocity.command_curriculum`.
     "rollout/command_factor", "–", "" => Sometimes(|r| r.state.episodes.means()?.command_factor);
+    /// Entropy of the last 128 failures to imitate motions, over their seconds; 0 if in one.
+    "rollout/failure_entropy", "nats", "" => Sometimes(|r| r.state.curricula.failure_entropy(r.control_step_s));
     /// Greatest `rollout/distance_mean_m`.
     Important "rollout/distance_best_m", "m", "" => Sometimes(|r| r.history.distance_best_m);
     /// Finished episodes.

@@ -62,6 +62,8 @@ pub struct UpdateRecord<'a> {
     pub state: &'a TrainingState,
     /// Largest distance of a probability ratio from 1 that the loss rewards.
     pub clip_range: f64,
+    /// Duration of a control step (s).
+    pub control_step_s: f64,
     /// Statistics of the update; `None` if it was undone.
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.

@@ -201,6 +201,7 @@ impl Reporting {
         let record = UpdateRecord {
             state,
             clip_range: learning.ppo.clip_range(),
+            control_step_s: config.env.control_step_s,
             update: update.stats(),
             lag,
             reward_terms: self.reward_terms.of(fragments),

@@ -71,6 +71,8 @@ pub struct Difficulty {
     pub ground_level: Option<f64>,
     /// Factor on the ranges of commands.
     pub command_factor: Option<f64>,
+    /// Control step, counted over all motions, at which it failed to imitate them.
+    pub failed_step: Option<u32>,
 }
 
 /// Curricula that environments of a run have reached lately.
@@ -82,6 +84,8 @@ pub struct Reached<'a> {
     pub ground_levels: &'a [u32],
     /// Factors on the ranges of commands.
     pub command_factors: &'a [f32],
+    /// Control steps, counted over all motions, at which episodes failed to imitate them.
+    pub failed_steps: &'a [u32],
 }
 
 /// Result of one control step.

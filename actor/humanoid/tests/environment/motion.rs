@@ -6,7 +6,7 @@ use treadmill_humanoid::config::MotionConfig;
 use treadmill_humanoid::mjcf::with_motions;
 use treadmill_humanoid::motion::{MotionClip, SampledMotion};
 use treadmill_humanoid::task::motion::MotionTask;
-use treadmill_humanoid::task::{EpisodeStart, Step};
+use treadmill_humanoid::task::{EpisodeStart, Reached, Step};
 use treadmill_humanoid::{
     EnvConfig, EnvTask, Environment, EnvironmentConfig, Mirror, Model, Physics, RandomisationConfig, Task,
 };
@@ -225,10 +225,14 @@ fn an_environment_goes_back_to_where_it_failed_until_it_has_come_past() {
     };
     let seed = (0..).find(|seed| begins(&mut task, &physics, *seed) == 80).unwrap();
     assert_eq!(begins(&mut task, &physics, seed), 80);
-    assert!(!play(&mut task, &mut physics, 81, 0.0) && play(&mut task, &mut physics, 82, 1.0));
+    assert!(!play(&mut task, &mut physics, 81, 0.0));
+    assert_eq!(task.difficulty().failed_step, None);
+    assert!(play(&mut task, &mut physics, 82, 1.0));
+    assert_eq!(task.difficulty().failed_step, Some(82));
     // Up to 25 control steps before the failure at 82.
     let again: Vec<usize> = (0..200).map(|seed| begins(&mut task, &physics, seed)).collect();
     assert!(again.iter().all(|step| (57..82).contains(step)), "{again:?}");
+    assert_eq!(task.difficulty().failed_step, None);
     // An episode that begins behind it does not end that.
     let mut behind = task.save();
     behind[1..5].copy_from_slice(&[120.0, 1.0, 82.0, 119.0]);
@@ -248,6 +252,18 @@ fn an_environment_goes_back_to_where_it_failed_until_it_has_come_past() {
     task.restore(&saved).unwrap();
     assert!((0..50).all(|seed| (57..82).contains(&begins(&mut task, &physics, seed))));
     assert!(task.restore(&saved[1..]).is_err());
+    // A new environment begins where others of the run fail; numbers from the bus may be of no motion.
+    let failed_steps: &[u32] = &[82, u32::MAX];
+    let adopted: Vec<usize> = (0..100)
+        .map(|seed| {
+            task.adopt_curricula(&Reached { failed_steps, ..Reached::default() }, seed);
+            begins(&mut task, &physics, seed)
+        })
+        .collect();
+    for range in [57..82, 125..150] {
+        assert!(adopted.iter().filter(|step| range.contains(*step)).count() > 30, "{adopted:?}");
+    }
+    assert!(adopted.iter().all(|step| (57..82).contains(step) || (125..150).contains(step)), "{adopted:?}");
 }
 
 #[test]

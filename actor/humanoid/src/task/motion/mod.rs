@@ -29,7 +29,7 @@ pub use self::rewards::MotionErrors;
 use self::rewards::MotionStep;
 use super::term::Layout;
 use super::velocity::ACTION_MAX;
-use super::{EpisodeStart, ObservationTerm, Step, StepEvaluation, Task, servos};
+use super::{Difficulty, EpisodeStart, ObservationTerm, Reached, Step, StepEvaluation, Task, servos};
 use crate::config::{EnvironmentConfig, MOTION_TERMS, MotionConfig, MotionRewards};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -62,6 +62,8 @@ pub struct MotionTask {
     step: usize,
     /// Control step at which this environment failed last, until it has come past it.
     failed: Option<usize>,
+    /// Control step at which the present episode failed, for who counts them.
+    failed_now: Option<usize>,
     /// Motion with which episodes outside of training begin.
     chosen: usize,
     /// Control step at which the episode began.
@@ -103,6 +105,7 @@ impl MotionTask {
             encoder_errors_rad: vec![0.0; model.hinges.len()],
             step: reference.motions[0].start + 1,
             failed: None,
+            failed_now: None,
             chosen: 0,
             began: reference.motions[0].start,
             episode_steps: 0,
@@ -193,6 +196,7 @@ impl Task for MotionTask {
         let bias_rad = self.encoder_bias_rad;
         self.encoder_errors_rad.fill_with(|| (2.0 * encoders.random::<f64>() - 1.0) * bias_rad);
         self.episode_steps = 0;
+        self.failed_now = None;
         self.actions.fill(0.0);
         self.actions_before.fill(0.0);
         self.errors = MotionErrors::default();
@@ -226,8 +230,9 @@ impl Task for MotionTask {
         let reward = weighted.fold(0.0, |sum, (weight, term)| sum + weight * term);
         self.rewarded = terms;
         let is_last = self.step + 1 >= self.reference.motion_of(self.step).end;
+        self.failed_now = has_failed.then_some(self.step);
         if has_failed {
-            self.failed = Some(self.step);
+            self.failed = self.failed_now;
         } else if self.failed.is_some_and(|failed| self.has_passed(failed)) {
             self.failed = None;
         }
@@ -252,6 +257,18 @@ impl Task for MotionTask {
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
         let image = |part| observation::image(part, &self.reference.compared, robot);
         self.layout.mirrored(image).filter(|_| self.has_mirror)
+    }
+
+    fn difficulty(&self) -> Difficulty {
+        Difficulty { failed_step: self.failed_now.map(|step| step as u32), ..Difficulty::default() }
+    }
+
+    fn adopt_curricula(&mut self, reached: &Reached<'_>, seed: u64) {
+        let failures = reached.failed_steps;
+        if !failures.is_empty() {
+            let drawn = failures[stream(seed, "curricula").random_range(0..failures.len())] as usize;
+            self.failed = Some(drawn.min(self.reference.positions.len() - 1));
+        }
     }
 
     fn save(&self) -> Vec<f64> {

@@ -1,8 +1,8 @@
 //! Where episodes begin: anywhere in the motions, or shortly before a failure.
 //!
 //! mjlab draws from bins of a second, by the counts of failures of all environments. Here each environment goes back to
-//! its own last failure until it has come past it. The starts of many environments are then distributed as their failures
-//! are, and an environment that is saved and continued needs nothing of the others.
+//! its own last failure until it has come past it; a new one begins with that of another. The starts of many environments
+//! are then distributed as their failures are, and an environment that is saved and continued needs nothing of the others.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt};

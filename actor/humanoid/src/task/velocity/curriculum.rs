@@ -106,6 +106,7 @@ impl Curriculum {
             ground_kind: self.ground.map(|_| self.kind as u32),
             ground_level: self.ground.map(|_| f64::from(self.level())),
             command_factor: self.commands_grow.then_some(self.factor),
+            failed_step: None,
         }
     }
 
@@ -292,6 +293,7 @@ mod tests {
             ground_kinds: &[0, 0, 0, 2, 9],
             ground_levels: &[1, 2, 99, 3, 3],
             command_factors: &[0.5, 0.75, 7.0],
+            failed_steps: &[],
         };
         let (mut levels, mut factors) = (Vec::new(), Vec::new());
         for seed in 0..100 {
