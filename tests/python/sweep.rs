@@ -86,8 +86,57 @@ fn hopeless_trials_are_pruned() {
         complete.extend((!is_pruned).then_some(rate));
     }
     let pruned = states.iter().filter(|state| *state == "pruned").count();
-    assert!(pruned > 0 && last_json(&output)["pruned"] == pruned, "{text}");
+    let result = last_json(&output);
+    assert!(pruned > 0 && result["pruned"] == pruned && result["complete"] == 8 - pruned, "{text}");
     assert_eq!(text.matches(" steps in ").count() - text.matches(", pruned\n").count(), 8 - pruned, "{text}");
+}
+
+#[test]
+fn a_study_is_kept_in_the_database_that_was_named() {
+    let Some(mut python) = python_with("cmaes") else { return };
+    let (folder, _) = folders();
+    let folder = folder.path();
+    let second = "ppo.gamma = { uniform = [0.9, 0.99] }\n";
+    fs::write(folder.join("search.toml"), format!("strategy = 'cmaes'\ntrials = 2\n{RATES}{second}")).unwrap();
+    let begin =
+        ["search.toml", "--storage", "sqlite:///all.db", "--preset", "smoke", "--steps", "512", "--run-dir", "S"];
+    let output = sweep(folder, &begin).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    // A relative path counts from where the sweep began.
+    fs::create_dir(folder.join("elsewhere")).unwrap();
+    let output = sweep(&folder.join("elsewhere"), &["--resume", "../S", "--trials", "3"]).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let read = "import json, optuna; s = optuna.load_study(study_name='S', storage='sqlite:///all.db')\n\
+                print(json.dumps([t.value for t in s.trials]))";
+    let found = python.args(["-c", read]).current_dir(folder).output().unwrap();
+    let goals: Vec<f64> = column(folder, "goal").iter().map(|goal| goal.parse().unwrap()).collect();
+    assert_eq!((goals.len(), last_json(&found)), (3, goals.into()), "{}", stderr(&found));
+    assert!(!folder.join("S/study.db").exists() && !folder.join("elsewhere/all.db").exists());
+}
+
+#[test]
+fn a_search_whose_python_dies_says_how_to_go_on() {
+    let Some(_) = python_with("optuna") else { return };
+    let (folder, _) = folders();
+    let folder = folder.path();
+    fs::write(folder.join("search.toml"), format!("strategy = 'tpe'\ntrials = 2\n{RATES}")).unwrap();
+    let begin = [&["search.toml", "--run-dir", "S", "--parallel", "1"][..], &LONG].concat();
+    let orphaned = Running::start(sweep(folder, &begin));
+    await_steps(&folder.join("S/trial-1"), 2048);
+    let trials = children(orphaned.pid(), "train");
+    for python in children(orphaned.pid(), "treadmill_sweep") {
+        send_signal(python, libc::SIGKILL);
+    }
+    let (status, lines) = orphaned.wait();
+    assert_eq!(status.code(), Some(1), "{lines:#?}");
+    assert!(
+        lines.iter().any(|line| line.contains("the study failed; go on with `treadmill sweep --resume`")),
+        "{lines:#?}"
+    );
+    await_that("the end of its trials", || trials.iter().all(|pid| !is_running(*pid)).then_some(()));
+    let output = sweep(folder, &["--resume", "S"]).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(column(folder, "state"), ["complete"; 2]);
 }
 
 #[test]

@@ -158,12 +158,17 @@ pub(crate) fn as_json(plan: &Plan, results: &SweepResults, importance: &BTreeMap
             "deviation": found.deviation(),
         })
     };
+    let states: Vec<&str> =
+        plan.trials.iter().enumerate().map(|(index, trial)| state(trial, results.of(index))).collect();
+    let count = |wanted: &str| states.iter().filter(|state| **state == wanted).count();
     json!({
         "sweep": results.root,
         "goal": results.goal.to_string(),
-        "trials": plan.trials.len(),
-        "failed": plan.failed(),
-        "pruned": plan.trials.iter().filter(|trial| trial.is_pruned).count(),
+        "trials": states.len(),
+        "complete": count("complete"),
+        "not_reached": count("not reached"),
+        "failed": count("failed"),
+        "pruned": count("pruned"),
         "best": results.best(plan).map(|index| format!("trial-{}", index + 1)),
         "settings": results.settings(plan).into_iter().map(setting).collect::<Vec<_>>(),
         "importance": importance,
