@@ -204,7 +204,9 @@ impl<'a> Membership<'a> {
 
     fn collector(&self, bundle: &PolicyBundle) -> Result<Collector, ActorError> {
         let (settings, options) = (&self.settings, self.options);
-        let seeds = SeedSource { run_seed: settings.run.seed, actor: options.name.clone(), start: options.start };
+        // An actor that was killed before it delivered anything begins as if it had not been; later ones have its state.
+        let start = if settings.run.deterministic { 0 } else { options.start };
+        let seeds = SeedSource { run_seed: settings.run.seed, actor: options.name.clone(), start };
         let noise = seeds.noise();
         // The number of threads may change the rounding of actions.
         let threads = match settings.run.deterministic {

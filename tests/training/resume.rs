@@ -289,3 +289,23 @@ fn curricula_go_on_where_they_were() {
     let forked = steps(&fork);
     assert!(!forked.is_empty() && forked.iter().all(|(.., level)| *level < 2.5), "{forked:?}");
 }
+
+#[test]
+fn an_actor_that_dies_before_it_delivers_does_not_change_a_deterministic_run() {
+    let (folder, _) = folders();
+    let folder = folder.path();
+    let args = [&new_run(&[])[..], &["--steps", "16384", "--run-dir"]].concat();
+    done(folder, &[&args[..], &["whole"]].concat());
+    let killed = start(folder, &[&args[..], &["killed"]].concat());
+    let kill_actor = || {
+        let actors =
+            await_that("an actor", || Some(children(killed.pid(), "actor")).filter(|actors| !actors.is_empty()));
+        send_signal(actors[0], libc::SIGKILL);
+        killed.wait_for("actor-0 ended with signal: 9");
+    };
+    kill_actor();
+    let (status, lines) = killed.wait();
+    assert!(status.success(), "{lines:#?}");
+    let [found, wanted] = ["killed", "whole"].map(|run| latest(&folder.join(run)));
+    assert!(found.ppo == wanted.ppo && found.episodes == wanted.episodes, "another result");
+}
