@@ -91,7 +91,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let updating = stopwatch.lap();
         let evaluation = trainer.save(&update, &batch)?;
         let checkpoint = stopwatch.lap();
-        trainer.publish(&update)?;
+        trainer.publish(&update, &batch)?;
         let publish = stopwatch.lap();
         let validate = collect.saturating_sub(trainer.serving.intake.take_idle());
         let serial = log + validate + checkpoint + publish;
@@ -173,8 +173,10 @@ impl Trainer {
     }
 
     /// Publishes the policy, which is saved.
-    fn publish(&mut self, update: &Update) -> Result<(), TrainingError> {
-        self.serving.publish(&update.policy, &self.state, &self.config)?;
+    fn publish(&mut self, update: &Update, batch: &CollectedBatch) -> Result<(), TrainingError> {
+        // Of a fragment for each batch, none is delivered before the policy that it needs is published.
+        let has_actor = batch.fragments.len() == 1;
+        self.serving.publish(&update.policy, &self.state, &self.config, has_actor)?;
         if let Some(write) = self.serving.storage.numbered(self.state.counters.updates) {
             self.reporting.background.submit(move |_| write());
         }

@@ -208,14 +208,16 @@ impl Serving {
     }
 
     /// Publishes a policy whose state is saved, releases the receipts, and submits it for evaluation if one is due.
+    /// `has_actor` is whether a restarted actor may go on from the state's.
     pub(super) fn publish(
         &mut self,
         policy: &TrainedPolicy,
         state: &TrainingState,
         config: &Config,
+        has_actor: bool,
     ) -> Result<(), TrainingError> {
         let config_hash = self.intake.validator.config_hash();
-        let published = published(state, policy, config, config_hash, self.intake.fleet.nominal(), false)?;
+        let published = published(state, policy, config, config_hash, self.intake.fleet.nominal(), has_actor)?;
         let encoded = published.bundle();
         self.policies.publish(published);
         if config.learner.mode == LearnerMode::Sync {
@@ -231,19 +233,19 @@ impl Serving {
     }
 }
 
-/// Encodes a policy of a state. The first one of a learner has the state of a deterministic run's only actor: one that
-/// joins later must not repeat steps that were learnt from.
+/// Encodes a policy of a state, with the state of a deterministic run's only actor where no steps after it have been
+/// delivered: the actor that goes on from there must not repeat any.
 fn published(
     state: &TrainingState,
     policy: &TrainedPolicy,
     config: &Config,
     config_hash: u64,
     fragment_steps: u32,
-    is_first: bool,
+    has_actor: bool,
 ) -> Result<PublishedPolicy, TrainingError> {
     let invalid = |why| TrainingError::State { why };
     let mut bundle = state.bundle(policy, config, config_hash).map_err(invalid)?;
-    bundle.actor_state = state.actor_state.clone().filter(|_| is_first);
+    bundle.actor_state = state.actor_state.clone().filter(|_| has_actor);
     bundle.fragment_steps = fragment_steps;
     PublishedPolicy::new(&bundle, &state.for_actors(policy, &bundle)).map_err(|why| invalid(error_chain(&why)))
 }
