@@ -13,7 +13,7 @@ const ALL_WORDS_MAX: usize = 41_000;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [110_500, 75_200];
+const RUST_LINES_MAX: [usize; 2] = [110_550, 75_200];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
