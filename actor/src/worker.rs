@@ -204,7 +204,7 @@ impl<'a> Membership<'a> {
 
     fn collector(&self, bundle: &PolicyBundle) -> Result<Collector, ActorError> {
         let (settings, options) = (&self.settings, self.options);
-        // An actor that was killed before it delivered anything begins as if it had not been; later ones have its state.
+        // Another start must not change a deterministic run: before anything is delivered there is no state to restore.
         let start = if settings.run.deterministic { 0 } else { options.start };
         let seeds = SeedSource { run_seed: settings.run.seed, actor: options.name.clone(), start };
         let noise = seeds.noise();

@@ -51,7 +51,7 @@ fn names_in(text: &str) -> BTreeSet<String> {
     words.map(str::to_string).collect()
 }
 
-/// Metrics that only runs of the velocity task log.
+/// Metrics that only runs of the tasks `velocity` and `motion` log.
 const OF_OTHER_TASKS: [&str; 10] = [
     "treadmill_eval_velocity_error_meters_per_second",
     "treadmill_eval_yaw_rate_error_radians_per_second",

@@ -62,7 +62,7 @@ pub struct MotionTask {
     step: usize,
     /// Control step at which this environment failed last, until it has come past it.
     failed: Option<usize>,
-    /// Control step at which the present episode failed, for who counts them.
+    /// Control step at which the present episode failed, which the learner counts.
     failed_now: Option<usize>,
     /// Motion with which episodes outside of training begin.
     chosen: usize,
