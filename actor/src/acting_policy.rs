@@ -60,14 +60,8 @@ impl ActingPolicy {
 
     /// Computes action means, `[rows][action]`, from raw observations, `[rows][observation]`. `normalised` is a buffer for
     /// the normalised observations.
-    pub fn means(
-        &self,
-        observations: &[f32],
-        rows: usize,
-        normalised: &mut Vec<f32>,
-        means: &mut [f32],
-    ) -> Result<(), ActorError> {
+    pub fn means(&self, observations: &[f32], rows: usize, normalised: &mut Vec<f32>, means: &mut [f32]) {
         self.normaliser.apply_into(observations, normalised);
-        Ok(self.policy.means(normalised, rows, means)?)
+        self.policy.means(normalised, rows, means);
     }
 }

@@ -39,7 +39,8 @@ impl PolicyAgent {
 
 impl Agent for PolicyAgent {
     fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError> {
-        self.policy.means(observation, 1, &mut self.normalised, action)
+        self.policy.means(observation, 1, &mut self.normalised, action);
+        Ok(())
     }
 }
 

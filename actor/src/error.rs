@@ -82,9 +82,6 @@ pub enum ActorError {
         /// Most environments for these steps.
         envs_max: usize,
     },
-    /// The network cannot be evaluated.
-    #[error("the policy cannot be evaluated")]
-    Inference(#[from] treadmill_policy::TensorError),
     /// A fragment failed its own checks.
     #[error("the fragment cannot be encoded")]
     Encoding(#[source] treadmill_proto::Malformed),
@@ -118,7 +115,6 @@ impl ActorError {
                 | Self::UnknownKeys { .. }
                 | Self::FragmentSize { .. }
                 | Self::NameTaken { .. }
-                | Self::Inference(_)
                 | Self::Encoding(_)
                 | Self::PhysicsEnded
                 | Self::PhysicsPanicked

@@ -5,7 +5,7 @@ use std::fs;
 use treadmill_config::{Config, LearnerMode};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::TrainingState;
-use treadmill_policy::device::{Device, DeviceKind};
+use treadmill_ppo::device::{Device, DeviceKind};
 use treadmill_ppo::settings;
 use treadmill_proto::Task;
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, run_lock::RunLock, seeds};

@@ -6,7 +6,7 @@ use clap::Args;
 use treadmill_config::{ConfigSource, EnvTask, given_value};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::CheckpointChoice;
-use treadmill_policy::device::DeviceKind;
+use treadmill_ppo::device::DeviceKind;
 use treadmill_runtime::{numbers::parse_count, words::nearest};
 
 use crate::{
@@ -167,7 +167,7 @@ pub struct AnyRunArgs {
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "saved")]
     pub checkpoint: Option<CheckpointChoice>,
-    /// Device for the networks: cpu, or cuda in a build with that feature.
+    /// Device of the updates: cpu, cuda (an NVIDIA GPU), or candle (Candle's tensors on the processor, slow).
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     pub device: DeviceKind,
     /// Do not show progress.

@@ -17,6 +17,7 @@ const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("libfuzzer-sys", &["fuzz"]),
     ("numpy", &["python/treadmill_gym"]),
     ("object_store", &["common/store"]),
+    ("cudarc", &["learner/gpu"]),
     ("prometheus-client", &["learner"]),
     ("prost", &["proto"]),
     ("prost-build", &["proto"]),
@@ -174,6 +175,7 @@ fn crates_are_named_only_in_their_folder() {
     assert_named_only_in(&["pulp::"], &["actor/humanoid/src/lanes"]);
     assert_named_only_in(&["axum::"], &["src/page/"]);
     assert_named_only_in(&["object_store::"], &["common/store/"]);
+    assert_named_only_in(&["cudarc::"], &["learner/gpu/"]);
 }
 
 #[test]

@@ -13,11 +13,11 @@ const ALL_WORDS_MAX: usize = 41_000;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [110_550, 75_200];
+const RUST_LINES_MAX: [usize; 2] = [112_300, 76_800];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.
-const FILES_MAX: usize = 1_150;
+const FILES_MAX: usize = 1_160;
 /// Most characters of a line of a comment.
 const LINE_CHARS_MAX: usize = 125;
 /// Words and phrases in place of a concrete subject or verb.

@@ -1,10 +1,9 @@
 //! Training runs from start to end: determinism, resuming, warm starts, full disks, sweeps, evaluation, TensorBoard, GPUs.
 
-#[cfg(feature = "cuda")]
-mod cuda;
 mod each_key;
 mod evaluation;
 mod full_disk;
+mod gpu;
 mod own_task;
 mod resume;
 #[path = "../support/mod.rs"]

@@ -106,7 +106,7 @@ impl Share {
     /// Draws an action for each environment.
     fn act(&mut self, policy: &ActingPolicy, normals: &[f32]) -> Result<(), ActorError> {
         let (envs, action_size) = (self.environments.len(), self.environments.action_size());
-        policy.means(self.environments.observations(), envs, &mut self.normalised, &mut self.means)?;
+        policy.means(self.environments.observations(), envs, &mut self.normalised, &mut self.means);
         for (mean, normals) in self.means.chunks_exact(action_size).zip(normals.chunks_exact(action_size)) {
             let start = self.actions.len();
             self.actions.resize(start + action_size, 0.0);

@@ -2,13 +2,9 @@
 
 use std::sync::Arc;
 
-use candle_core::{Device, Result, Tensor};
 use rayon::ThreadPool;
 
-use crate::{ForwardWeights, Mlp, NetworkShape, Networks, ParameterError, check_parameters, plain};
-
-/// Rows per application of the networks on a GPU; bounds the memory for activations.
-const ROWS_AT_ONCE: usize = 4096;
+use crate::{ForwardWeights, Mlp, NetworkShape, Networks, ParameterError, check_parameters};
 
 /// Networks with their parameters, for evaluation only.
 #[derive(Clone, Debug)]
@@ -19,10 +15,8 @@ pub struct Policy {
     /// Parameters of actor and critic.
     prepared: [ForwardWeights; 2],
     log_std: Vec<f32>,
-    /// Threads that share many rows on a CPU.
+    /// Threads that share many rows.
     pool: Option<Arc<ThreadPool>>,
-    /// Parameters of the dense networks on a GPU.
-    on_gpu: Option<Tensor>,
 }
 
 impl Policy {
@@ -30,7 +24,7 @@ impl Policy {
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
-    pub fn new(networks: impl Into<Networks>, parameters: Vec<f32>) -> std::result::Result<Self, ParameterError> {
+    pub fn new(networks: impl Into<Networks>, parameters: Vec<f32>) -> Result<Self, ParameterError> {
         let networks = networks.into();
         let (found, expected) = (parameters.len(), networks.parameter_count());
         if found != expected {
@@ -47,10 +41,10 @@ impl Policy {
             network.prepare(&parameters, &mut prepared);
             prepared
         });
-        Ok(Self { networks, actor, critic, prepared, log_std, pool: None, on_gpu: None })
+        Ok(Self { networks, actor, critic, prepared, log_std, pool: None })
     }
 
-    /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
+    /// Returns a policy whose many rows the threads of `pool` share, with the same results.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
@@ -58,13 +52,8 @@ impl Policy {
         networks: impl Into<Networks>,
         parameters: Vec<f32>,
         pool: Arc<ThreadPool>,
-        device: &Device,
-    ) -> std::result::Result<Self, ParameterError> {
-        let uploaded = (!device.is_cpu()).then(|| parameters.clone());
-        let policy = Self::new(networks, parameters)?;
-        let upload = |parameters: Vec<f32>| Tensor::new(&policy.networks.dense(&parameters)[..], device);
-        let on_gpu = uploaded.map(upload).transpose()?;
-        Ok(Self { pool: Some(pool), on_gpu, ..policy })
+    ) -> Result<Self, ParameterError> {
+        Ok(Self { pool: Some(pool), ..Self::new(networks, parameters)? })
     }
 
     /// Returns the shape of the networks.
@@ -79,58 +68,35 @@ impl Policy {
 
     /// Writes the action means, `[rows, action]`, for normalised `observations`, `[rows, observation]`.
     ///
-    /// # Errors
-    /// If Candle fails.
-    ///
     /// # Panics
     /// If a slice does not hold `rows` rows.
-    pub fn means(&self, observations: &[f32], rows: usize, means: &mut [f32]) -> Result<()> {
+    pub fn means(&self, observations: &[f32], rows: usize, means: &mut [f32]) {
         self.apply(&self.actor, &self.prepared[0], observations, rows, means)
     }
 
     /// Returns the critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
     ///
-    /// # Errors
-    /// If Candle fails.
-    ///
     /// # Panics
     /// If `observations` does not hold `rows` rows.
-    pub fn values(&self, observations: &[f32], rows: usize) -> Result<Vec<f32>> {
+    pub fn values(&self, observations: &[f32], rows: usize) -> Vec<f32> {
         let mut values = vec![0.0; rows];
-        self.apply(&self.critic, &self.prepared[1], observations, rows, &mut values)?;
-        Ok(values)
+        self.apply(&self.critic, &self.prepared[1], observations, rows, &mut values);
+        values
     }
 
-    fn apply(
-        &self,
-        network: &Mlp,
-        prepared: &ForwardWeights,
-        observations: &[f32],
-        rows: usize,
-        output: &mut [f32],
-    ) -> Result<()> {
+    fn apply(&self, network: &Mlp, prepared: &ForwardWeights, observations: &[f32], rows: usize, output: &mut [f32]) {
         let (columns, width) = (self.shape().observation, network.output());
         assert_eq!(observations.len(), rows * columns, "observations do not hold {rows} rows of {columns}");
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
-        let Some(parameters) = &self.on_gpu else {
-            network.evaluate(prepared, observations, columns, output, self.pool.as_deref());
-            return Ok(());
-        };
-        let is_actor = network.range().start == 0;
-        let layers = if is_actor { self.shape().actor() } else { self.shape().critic() };
-        let inputs = observations.chunks(ROWS_AT_ONCE * columns);
-        for (input, output) in inputs.zip(output.chunks_mut(ROWS_AT_ONCE * width)) {
-            let input = Tensor::from_slice(input, (input.len() / columns, columns), parameters.device())?;
-            output.copy_from_slice(&plain::network(&layers, parameters, &input)?.flatten_all()?.to_vec1()?);
-        }
-        Ok(())
+        network.evaluate(prepared, observations, columns, output, self.pool.as_deref());
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mlp::CHUNK_ROWS;
+    use crate::{mlp::CHUNK_ROWS, plain};
+    use candle_core::{Device, Result, Tensor};
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
     #[test]
@@ -149,8 +115,8 @@ mod tests {
         for rows in [1, 5, 4 * CHUNK_ROWS + 3] {
             let observations: Vec<f32> = (0..rows * 3).map(|i| (i as f32 * 0.37).sin() * 3.0).collect();
             let mut means = vec![0.0; rows * 2];
-            policy.means(&observations, rows, &mut means)?;
-            let values = policy.values(&observations, rows)?;
+            policy.means(&observations, rows, &mut means);
+            let values = policy.values(&observations, rows);
             let tensor = Tensor::from_slice(&observations, (rows, 3), &Device::Cpu)?;
             let expected =
                 plain::actor_critic(&shape, &Tensor::new(&parameters[..], &Device::Cpu)?, &tensor)?.to_vec2::<f32>()?;
@@ -170,11 +136,11 @@ mod tests {
         let rows = 5 * CHUNK_ROWS + 17;
         let observations: Vec<f32> = (0..rows * 9).map(|i| (i as f32 * 0.37).sin() * 3.0).collect();
         let alone = Policy::new(shape.clone(), parameters.clone()).expect("they fit");
-        let expected = alone.values(&observations, rows).expect("no device");
+        let expected = alone.values(&observations, rows);
         for threads in [1, 2, 3, 7] {
             let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start"));
-            let policy = Policy::with_pool(shape.clone(), parameters.clone(), pool, &Device::Cpu).expect("they fit");
-            assert_eq!(policy.values(&observations, rows).expect("no device"), expected, "{threads} threads");
+            let policy = Policy::with_pool(shape.clone(), parameters.clone(), pool).expect("they fit");
+            assert_eq!(policy.values(&observations, rows), expected, "{threads} threads");
         }
     }
 

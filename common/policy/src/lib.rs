@@ -12,15 +12,14 @@
 //! - `matrix`: products of matrices on slices.
 //! - `mirror`: [`PolicyMirror`] of observations and actions, even and odd parts.
 //! - `networks`: [`Networks`], dense or equivariant to a mirror, whose parameters are learnt.
+//! - `structure`: [`NetworkStructure`] of networks, for programs of a GPU.
 //! - `mlp`: [`Mlp`], forward and backward pass of one network on slices, for CPUs.
-//! - [`plain`]: the same networks from Candle's operations, for GPUs and as the reference of tests.
+//! - [`plain`]: the same networks from Candle's operations, as a reference.
 //! - `inference`: [`Policy`], which actors evaluate.
 //! - `moments`: running mean and variance of observations and returns.
 //! - `normaliser`: normalisation by them.
 //! - `exported`, `onnx`: a policy as a safetensors or ONNX file.
-//! - `device`: choice of CPU or GPU.
 
-pub mod device;
 mod elementwise;
 pub mod exported;
 pub mod gaussian;
@@ -35,15 +34,15 @@ pub mod normaliser;
 pub mod onnx;
 pub mod plain;
 mod shape;
+mod structure;
 mod tensors;
 
-/// Error of the tensor library, which only networks on a GPU use.
-pub use candle_core::Error as TensorError;
 pub use inference::Policy;
 pub use mirror::{PolicyMirror, Reflection, mirror_indices};
 pub use mlp::{CHUNK_ROWS, ForwardWeights, Mlp, Tape};
 pub use networks::Networks;
 pub use shape::{Dense, NamedTensor, NetworkShape};
+pub use structure::{LayerBlock, NetworkLayer, NetworkStructure, SignedPair};
 pub use tensors::{
     ParameterError, actor_from_safetensors, actor_to_safetensors, check_parameters, from_safetensors, to_safetensors,
 };

@@ -195,7 +195,12 @@ impl Mlp {
 
     /// Returns what the first layer reads.
     fn first_source<'a>(&self, rows: &'a [f32], columns: usize) -> Source<'a> {
-        Source { rows, columns, starts: self.reflection.as_ref().map_or([0; 2], |reflection| reflection.seen) }
+        Source { rows, columns, starts: self.first_columns() }
+    }
+
+    /// Returns the first column that each block of the first layer reads.
+    pub(crate) fn first_columns(&self) -> [usize; 2] {
+        self.reflection.as_ref().map_or([0; 2], |reflection| reflection.seen)
     }
 
     /// Computes the gradient of the parameters, which is as long as [`Self::range`]. The tape holds the forward pass of

@@ -1,4 +1,4 @@
-//! Networks from Candle's own operations and gradients: on a GPU, and as the reference of tests.
+//! Networks from Candle's own operations and gradients, as a reference.
 
 use candle_core::{Result, Tensor};
 use candle_nn::{Activation, Linear, Module};

@@ -8,7 +8,6 @@
 //! thread, because it is little: for 8,192 rows the networks take 33 ms on one thread, normalisation 0.2 ms, everything
 //! else 1.5 ms.
 
-use candle_core::Result;
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
     Policy, gaussian,
@@ -56,16 +55,13 @@ pub struct BuiltBatch {
 ///
 /// `policy` is the newest, which the update improves. The new returns are added to `value_moments` before returns and
 /// values are normalised by them.
-///
-/// # Errors
-/// If the networks cannot be evaluated.
 pub fn build_batch(
     accepted: &[AcceptedFragment],
     policy: &Policy,
     normaliser: &Normaliser,
     value_moments: &mut RunningMoments,
     config: &PpoConfig,
-) -> Result<BuiltBatch> {
+) -> BuiltBatch {
     // Before the first return, the units of returns are unknown, so the critic's output is not used.
     let value_scale = (value_moments.count > 0.0).then(|| ScalarNormaliser::from_moments(value_moments));
     let builder = BatchBuilder { policy, normaliser, value_scale, config };
@@ -74,7 +70,7 @@ pub fn build_batch(
     let mut batch = loop {
         // Anew after a rejection: the results for a row may differ in the last bit with the rows beside it.
         let fragments: Vec<&AcceptedFragment> = kept.iter().map(|index| &accepted[*index]).collect();
-        let batch = builder.build(&fragments)?;
+        let batch = builder.build(&fragments);
         let found = builder.implausible(&fragments, &batch, value_moments);
         if found.is_empty() {
             break batch;
@@ -89,7 +85,7 @@ pub fn build_batch(
     let new_scale = ScalarNormaliser::from_moments(value_moments);
     new_scale.normalise(&mut batch.returns);
     new_scale.normalise(&mut batch.values);
-    Ok(BuiltBatch { batch, rejected })
+    BuiltBatch { batch, rejected }
 }
 
 /// Inputs that are the same for every fragment of a batch.
@@ -103,7 +99,7 @@ struct BatchBuilder<'a> {
 
 impl BatchBuilder<'_> {
     /// Returns the transitions of the fragments, with returns and values in units of scaled rewards.
-    fn build(&self, fragments: &[&AcceptedFragment]) -> Result<Batch> {
+    fn build(&self, fragments: &[&AcceptedFragment]) -> Batch {
         let joined = |plane: fn(&Fragment) -> &[f32]| -> Vec<f32> {
             fragments.iter().flat_map(|accepted| plane(&accepted.fragment)).copied().collect()
         };
@@ -111,9 +107,9 @@ impl BatchBuilder<'_> {
         self.normaliser.apply(&mut observations);
         let mut last_observations = joined(|fragment| &fragment.last_observations);
         self.normaliser.apply(&mut last_observations);
-        let values = self.values(&observations)?;
-        let mut last_values = self.values(&last_observations)?.into_iter();
-        let mut batch = self.with_actions(observations, joined(|fragment| &fragment.actions))?;
+        let values = self.values(&observations);
+        let mut last_values = self.values(&last_observations).into_iter();
+        let mut batch = self.with_actions(observations, joined(|fragment| &fragment.actions));
         let mut start = 0;
         for AcceptedFragment { fragment, lag } in fragments {
             let rows = start..start + fragment.transitions();
@@ -130,19 +126,19 @@ impl BatchBuilder<'_> {
             start = rows.end;
         }
         batch.values = values;
-        Ok(batch)
+        batch
     }
 
     /// Returns the critic's values of normalised observations in units of returns; 0 if those are unknown.
-    fn values(&self, observations: &[f32]) -> Result<Vec<f32>> {
+    fn values(&self, observations: &[f32]) -> Vec<f32> {
         let rows = observations.len() / self.policy.shape().observation;
         match self.value_scale {
             Some(scale) if rows > 0 => {
-                let mut values = self.policy.values(observations, rows)?;
+                let mut values = self.policy.values(observations, rows);
                 scale.denormalise(&mut values);
-                Ok(values)
+                values
             }
-            _ => Ok(vec![0.0; rows]),
+            _ => vec![0.0; rows],
         }
     }
 
@@ -150,14 +146,14 @@ impl BatchBuilder<'_> {
     ///
     /// At lag 0 these equal the claimed log-probabilities within rounding, so that the ratios of the first gradient
     /// step are 1.
-    fn with_actions(&self, observations: Vec<f32>, actions: Vec<f32>) -> Result<Batch> {
+    fn with_actions(&self, observations: Vec<f32>, actions: Vec<f32>) -> Batch {
         let log_std = self.policy.log_std();
         let mut means = vec![0.0; actions.len()];
         if !actions.is_empty() {
-            self.policy.means(&observations, actions.len() / log_std.len(), &mut means)?;
+            self.policy.means(&observations, actions.len() / log_std.len(), &mut means);
         }
         let log_probs = gaussian::log_probabilities(&actions, &means, log_std);
-        Ok(Batch { observations, actions, means, log_probs, ..Batch::default() })
+        Batch { observations, actions, means, log_probs, ..Batch::default() }
     }
 
     /// Estimates advantages and returns of one fragment, in units of scaled rewards. Takes its values of true last

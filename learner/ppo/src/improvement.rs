@@ -46,23 +46,18 @@ impl Ppo {
         state: &PpoState,
         accepted: &mut Vec<AcceptedFragment>,
     ) -> Result<PreparedBatch, UpdateError> {
-        let (built, value_moments) = self.build(state, &self.policy(state)?, accepted)?;
+        let (built, value_moments) = self.build(state, &self.policy(state)?, accepted);
         let mut rejected: Vec<_> =
             built.rejected.into_iter().rev().map(|bad| (accepted.remove(bad.index).fragment, bad.why)).collect();
         rejected.reverse();
         Ok(PreparedBatch { batch: built.batch, value_moments, rejected })
     }
 
-    fn build(
-        &self,
-        state: &PpoState,
-        policy: &Policy,
-        accepted: &[AcceptedFragment],
-    ) -> candle_core::Result<(BuiltBatch, RunningMoments)> {
+    fn build(&self, state: &PpoState, policy: &Policy, accepted: &[AcceptedFragment]) -> (BuiltBatch, RunningMoments) {
         let normaliser = Normaliser::from_moments(&state.observation_moments, self.options.observation_clip);
         let mut value_moments = state.value_moments.clone();
-        let built = build_batch(accepted, policy, &normaliser, &mut value_moments, &self.config)?;
-        Ok((built, value_moments))
+        let built = build_batch(accepted, policy, &normaliser, &mut value_moments, &self.config);
+        (built, value_moments)
     }
 
     /// Takes `epochs` passes over the batch that was prepared from `accepted`, then adds it to the running statistics.
@@ -111,7 +106,7 @@ impl Ppo {
         let Ok(policy) = self.policy(state) else { return Vec::new() };
         let fails = |index: &usize| {
             let alone = std::slice::from_ref(&accepted[*index]);
-            let Ok((built, _)) = self.build(state, &policy, alone) else { return false };
+            let (built, _) = self.build(state, &policy, alone);
             let result = self.update(&mut state.clone(), &built.batch, 1);
             !built.rejected.is_empty() || matches!(result, Err(UpdateError::NonFinite { .. }))
         };

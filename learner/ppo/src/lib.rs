@@ -9,10 +9,12 @@
 //! - [`batch_building`]: turns accepted fragments into the batch of one update.
 //! - [`plausibility`]: finds fragments whose numbers cannot be what an actor observed.
 //! - [`batch`]: the batch itself, and its minibatches.
-//! - [`loss`]: the loss, from top to bottom, in Candle's operations: on a GPU, and as the reference of tests.
+//! - [`loss`]: the loss, from top to bottom, in Candle's operations.
 //! - `loss_gradient`: the same loss and its gradient on slices.
 //! - `slice_gradient`: gather, forward, loss, backward on slices.
-//! - `tensor_gradient`: the same in Candle's operations: on a GPU, and as the reference of tests.
+//! - `tensor_gradient`: the same in Candle's operations: `--device candle`, and the reference of tests.
+//! - [`device`]: processor, GPU, or Candle.
+//! - `passes`, `gpu_passes`: passes over a batch on the processor and on a GPU.
 //! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old state when one fails.
 //! - `update_stats`: what an update reports, or why it was undone.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
@@ -23,13 +25,16 @@
 
 pub mod batch;
 pub mod batch_building;
+pub mod device;
 pub mod gae;
+mod gpu_passes;
 pub mod improvement;
 pub mod load_adaptation;
 pub mod loss;
 mod loss_gradient;
 pub mod measures;
 pub mod optimiser;
+mod passes;
 pub mod plausibility;
 pub mod settings;
 mod slice_gradient;

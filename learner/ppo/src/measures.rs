@@ -8,7 +8,7 @@ use crate::batch::{Batch, picked};
 
 /// Rows that the divergence is measured on: a forward pass of the actor over a whole batch would be about a sixth of a
 /// pass's products.
-const KL_ROWS: usize = 512;
+pub(crate) const KL_ROWS: usize = 512;
 /// Fractional part of the golden ratio: its multiples modulo 1 fill the interval evenly and share no period with the batch.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -38,6 +38,11 @@ impl PolicyShift {
         }
     }
 
+    /// Returns the means of the old policy in the rows of [`spread_rows`].
+    pub(crate) fn old_means(&self) -> &[f32] {
+        &self.old_means
+    }
+
     /// Returns the Kullback–Leibler divergence from the old policy to that of `parameters` in nats, in closed form.
     pub(crate) fn divergence(&self, parameters: &[f32], pool: &ThreadPool) -> f64 {
         let mut means = vec![0.0; self.old_means.len()];
@@ -50,7 +55,7 @@ impl PolicyShift {
 }
 
 /// Returns up to [`KL_ROWS`] of `rows` rows.
-fn spread_rows(rows: usize) -> Vec<u32> {
+pub(crate) fn spread_rows(rows: usize) -> Vec<u32> {
     match rows <= KL_ROWS {
         true => (0..rows as u32).collect(),
         false => (0..KL_ROWS).map(|i| ((i as f64 * GOLDEN).fract() * rows as f64) as u32).collect(),

@@ -1,6 +1,5 @@
 //! The gradient on slices against that of Candle's operations and automatic differentiation.
 
-use candle_core::Device;
 use proptest::prelude::*;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
@@ -61,7 +60,7 @@ fn check(networks: &Networks, rows: usize, lanes_max: Option<usize>, config: &Pp
     let (batch, parameters) = experience(networks, rows + 10, seed);
     let order: Vec<u32> = (10..10 + rows as u32).rev().collect();
     let mut expected = vec![0.0; networks.parameter_count()];
-    let on_tensors = TensorGradient::upload(&batch, &batch.advantages, networks, config, &Device::Cpu);
+    let on_tensors = TensorGradient::upload(&batch, &batch.advantages, networks, config);
     let expected_loss = on_tensors.and_then(|t| t.compute(&order, &parameters, &mut expected)).expect("candle runs");
 
     let mut slices = SliceGradient::new(&batch, &batch.advantages, networks, config);

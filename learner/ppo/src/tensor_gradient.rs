@@ -1,4 +1,4 @@
-//! Gradient of the loss by Candle's operations and automatic differentiation: on a GPU, and as the reference of tests.
+//! Gradient of the loss by Candle's operations and automatic differentiation on the processor.
 
 use candle_core::{DType, Device, Result, Tensor, Var};
 use treadmill_config::PpoConfig;
@@ -10,7 +10,7 @@ use crate::{
     loss_gradient::LossSums,
 };
 
-/// Batch of one update on a device.
+/// Batch of one update as tensors.
 pub(crate) struct TensorGradient<'a> {
     networks: &'a Networks,
     config: &'a PpoConfig,
@@ -19,15 +19,14 @@ pub(crate) struct TensorGradient<'a> {
 }
 
 impl<'a> TensorGradient<'a> {
-    /// Uploads a batch. `advantages` are the normalised ones, times their weights.
+    /// Copies a batch. `advantages` are the normalised ones, times their weights.
     pub(crate) fn upload(
         batch: &Batch,
         advantages: &[f32],
         networks: &'a Networks,
         config: &'a PpoConfig,
-        device: &Device,
     ) -> Result<Self> {
-        let shape = networks.shape();
+        let (shape, device) = (networks.shape(), &Device::Cpu);
         let matrix = |plane: &[f32], width| Tensor::from_slice(plane, (batch.len(), width), device);
         let rows = Minibatch {
             actions: matrix(&batch.actions, shape.action)?,

@@ -4,20 +4,16 @@ use std::sync::Arc;
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use treadmill_config::PpoConfig;
-use treadmill_policy::{
-    ParameterError, Policy,
-    device::Device,
-    gaussian::{self, clamp_log_std},
-};
+use treadmill_gpu::GpuError;
+use treadmill_policy::{Networks, ParameterError, Policy};
 
 use crate::{
-    batch::{Batch, minibatches, shuffle, weighted_advantages},
-    loss_gradient::LossSums,
-    measures::{PolicyShift, adapt_learning_rate, explained_variance},
-    optimiser::{clip_factor, global_norm},
-    slice_gradient::SliceGradient,
+    batch::{Batch, shuffle, weighted_advantages},
+    device::Device,
+    gpu_passes::{self, GpuPasses},
+    measures::{adapt_learning_rate, explained_variance},
+    passes::{CpuPasses, Passes},
     state::PpoState,
-    tensor_gradient::TensorGradient,
     update_stats::{UpdateError, UpdateStats, check_finite},
 };
 
@@ -29,7 +25,7 @@ const UNDONE_FACTOR: f64 = 4.0;
 /// What learning needs beside its state.
 #[derive(Clone, Debug)]
 pub struct PpoOptions {
-    /// Device that computes gradients and values.
+    /// Device that computes gradients.
     pub device: Device,
     /// Threads of the update on a CPU; the results do not depend on their number.
     pub pool: Arc<ThreadPool>,
@@ -54,18 +50,30 @@ impl PpoOptions {
 pub struct Ppo {
     pub(crate) options: PpoOptions,
     pub(crate) config: PpoConfig,
-    is_on_device: bool,
 }
 
 impl Ppo {
     /// Returns the algorithm with its settings.
     pub fn new(options: PpoOptions, config: &PpoConfig) -> Self {
-        Self { is_on_device: !options.device.is_cpu(), options, config: config.clone() }
+        Self { options, config: config.clone() }
     }
 
     /// Replaces the settings.
     pub fn set_config(&mut self, config: &PpoConfig) {
         self.config = config.clone();
+    }
+
+    /// Takes the memory of a GPU that updates need, so that a lack of it is found before the first one. Returns what is
+    /// known of the GPU, and that memory in bytes; `None` on a processor.
+    ///
+    /// # Errors
+    /// If the memory is too small.
+    pub fn reserve(&self, networks: &Networks) -> Result<Option<(String, u64)>, GpuError> {
+        let Device::Cuda(gpu, session) = &self.options.device else { return Ok(None) };
+        let rows = self.config.batch as usize;
+        let session = gpu_passes::reserve(gpu, session, networks, &self.config, rows)?;
+        let name = format!("{}, driver for CUDA {}", gpu.name(), gpu.cuda_version());
+        Ok(session.as_ref().map(|session| (name, session.memory_bytes())))
     }
 
     /// Returns the largest distance of a probability ratio from 1 that the loss rewards.
@@ -78,8 +86,7 @@ impl Ppo {
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
     pub fn policy(&self, state: &PpoState) -> Result<Policy, ParameterError> {
-        let PpoOptions { device, pool, .. } = &self.options;
-        Policy::with_pool(state.networks.clone(), state.parameters.clone(), pool.clone(), device)
+        Policy::with_pool(state.networks.clone(), state.parameters.clone(), self.options.pool.clone())
     }
 
     /// Takes `epochs` passes over a batch, in an order drawn from the state's random stream. A pass that leads too far from
@@ -109,42 +116,21 @@ impl Ppo {
         let (PpoOptions { device, pool, .. }, config) = (&self.options, &self.config);
         let networks = &state.networks.clone();
         let advantages = weighted_advantages(batch);
-        let mut on_device = match self.is_on_device {
-            true => Some(TensorGradient::upload(batch, &advantages, networks, config, device)?),
-            false => None,
+        let mut passes: Box<dyn Passes> = match device {
+            Device::Cuda(gpu, session) => Box::new(GpuPasses::new(batch, &advantages, state, config, (gpu, session))?),
+            _ => Box::new(CpuPasses::new(batch, &advantages, networks, config, (device, pool), &state.parameters)?),
         };
-        let mut on_slices = SliceGradient::new(batch, &advantages, networks, config);
-        let mut compute_gradient = |rows: &[u32], parameters: &[f32], gradient: &mut [f32]| match &mut on_device {
-            Some(tensors) => tensors.compute(rows, parameters, gradient).map_err(UpdateError::from),
-            None => Ok(on_slices.compute(rows, parameters, gradient)),
-        };
-
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
-        let mut gradient = vec![0.0; state.parameters.len()];
-        let shift = PolicyShift::new(batch, networks, &state.parameters);
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
         };
         for _ in 0..epochs {
-            let before = (config.target_kl > 0.0).then(|| (state.parameters.clone(), state.optimiser.clone()));
             shuffle(&mut order, &mut state.shuffle);
-            // On a thread of the pool, so that the others wait for its next task and are not woken for each.
-            pool.install(|| -> Result<(), UpdateError> {
-                for range in minibatches(order.len(), config.minibatch_rows()) {
-                    let rows = &order[range];
-                    let loss = compute_gradient(rows, &state.parameters, &mut gradient)?;
-                    self.step(state, rows.len(), &loss, &gradient, &mut stats)?;
-                }
-                Ok(())
-            })?;
-            check_finite(state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
-            let approx_kl = shift.divergence(&state.parameters, pool);
+            let approx_kl = passes.pass(state, &order, &mut stats)?;
             check_finite(approx_kl.is_finite(), "divergence from the old policy")?;
-            if let Some((parameters, optimiser)) = before
-                && approx_kl > KL_MAX * config.target_kl
-            {
-                (state.parameters, state.optimiser) = (parameters, optimiser);
+            if config.target_kl > 0.0 && approx_kl > KL_MAX * config.target_kl {
+                passes.undo(state)?;
                 state.learning_rate = (state.learning_rate / UNDONE_FACTOR).max(config.learning_rate_min);
                 stats.undone_passes += 1;
                 continue;
@@ -152,28 +138,9 @@ impl Ppo {
             stats.approx_kl = approx_kl;
             state.learning_rate = adapt_learning_rate(state.learning_rate, approx_kl, config);
         }
+        passes.finish(state)?;
         stats.finish(&networks.log_std(&state.parameters), state.learning_rate);
         Ok(stats)
-    }
-
-    /// Takes the step of a gradient: clipping, then Adam.
-    fn step(
-        &self,
-        state: &mut PpoState,
-        rows: usize,
-        loss: &LossSums,
-        gradient: &[f32],
-        stats: &mut UpdateStats,
-    ) -> Result<(), UpdateError> {
-        let PpoState { networks, parameters, optimiser, learning_rate, .. } = state;
-        stats.add(rows, loss, gaussian::entropy(&networks.log_std(parameters)));
-        check_finite((loss.policy + loss.value + loss.bounds).is_finite(), "loss")?;
-        let norm = global_norm(gradient);
-        check_finite(norm.is_finite(), "gradient")?;
-        stats.grad_norm += rows as f64 * norm;
-        optimiser.apply(parameters, gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
-        clamp_log_std(&mut parameters[networks.log_std_range()]);
-        Ok(())
     }
 }
 

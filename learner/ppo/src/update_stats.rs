@@ -58,6 +58,9 @@ pub enum UpdateError {
         /// Quantity that is not finite, such as the loss.
         what: &'static str,
     },
+    /// The GPU failed.
+    #[error(transparent)]
+    Gpu(#[from] treadmill_gpu::GpuError),
     /// Candle failed.
     #[error("the tensor library failed")]
     Tensor(#[from] candle_core::Error),

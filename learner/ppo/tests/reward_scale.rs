@@ -34,7 +34,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
             |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut noise_random)).collect() };
         let (observations, noise) = (normals(rows * 3), normals(rows * 2));
         let (mut means, mut actions) = (vec![0.0; rows * 2], vec![0.0; rows * 2]);
-        policy.means(&observations, rows, &mut means).expect("candle runs");
+        policy.means(&observations, rows, &mut means);
         for row in 0..rows {
             let span = row * 2..row * 2 + 2;
             gaussian::sample(&means[span.clone()], policy.log_std(), &noise[span.clone()], &mut actions[span]);
@@ -60,7 +60,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         };
         let accepted = [AcceptedFragment { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);
-        let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, &config).expect("it fits");
+        let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, &config);
         assert_eq!(built.rejected, []);
         explained = ppo.update(&mut state, &built.batch, config.epochs).expect("finite").explained_variance;
     }

@@ -25,6 +25,9 @@ pub enum TrainingError {
     /// The networks could not be evaluated.
     #[error("the networks cannot be evaluated")]
     Inference(#[source] UpdateError),
+    /// A GPU cannot compute updates.
+    #[error(transparent)]
+    Gpu(#[from] treadmill_gpu::GpuError),
     /// Too many updates in a row were undone.
     #[error("{updates} updates in a row were undone; the last sound checkpoint stays in place")]
     Undone {

@@ -59,6 +59,9 @@ impl Learning {
         };
         let ppo = Ppo::new(ppo_options, &config.ppo);
         ppo.policy(&state.ppo).map_err(|why| invalid(&why))?;
+        if let Some((gpu, bytes)) = ppo.reserve(state.ppo.networks())? {
+            tracing::info!(gpu, memory_mb = bytes.div_ceil(1_000_000), "updates are computed on a GPU");
+        }
         Ok(Self { ppo, load: LoadAdaptation::new(&config.ppo, config.learner.mode), undone_in_a_row: 0 })
     }
 
@@ -88,6 +91,8 @@ impl Learning {
                 let rejected = update.rejected.len();
                 tracing::warn!(rejected, "update undone: no fragment of the batch is plausible");
             }
+            // It does not recover. The last checkpoint is that of the update before.
+            Err(UpdateError::Gpu(why)) => return Err(why.into()),
             Err(source) => {
                 tracing::warn!(error = %error_chain(&source), "update undone");
                 self.undone_in_a_row += 1;

@@ -18,8 +18,8 @@ pub struct TrainingOptions {
     pub epoch: u64,
     /// Environment steps of the run after which this start ends. The saved configuration may have more.
     pub steps: u64,
-    /// Device that computes the networks.
-    pub device: treadmill_policy::device::Device,
+    /// Device that computes updates.
+    pub device: treadmill_ppo::device::Device,
     /// Outputs of metrics.
     pub report: ReportOptions,
     /// Actor processes that the supervisor has restarted.

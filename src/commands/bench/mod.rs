@@ -6,10 +6,10 @@
 //! - [`train`]: a whole training run.
 
 mod env;
-mod network;
+pub(crate) mod network;
 mod policy;
 mod train;
-mod update;
+pub(crate) mod update;
 
 use clap::{Args, Subcommand};
 use treadmill_humanoid::TaskRegistry;

@@ -64,6 +64,12 @@ impl Widths {
     }
 }
 
+/// Returns the networks that `bench update` measures by default.
+pub fn usual() -> Networks {
+    let widths: Widths = "45-256-128".parse().expect("they are widths");
+    widths.networks(BenchSymmetry::Equivariant).expect("the widths are even")
+}
+
 /// Draws standard normal numbers.
 pub fn normals(count: usize, random: &mut seeds::Stream) -> Vec<f32> {
     (0..count).map(|_| StandardNormal.sample(random)).collect()

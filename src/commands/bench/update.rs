@@ -5,8 +5,8 @@ use std::time::Instant;
 use clap::Args;
 use serde_json::json;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian};
-use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState};
+use treadmill_policy::{NetworkShape, Networks, gaussian};
+use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState, device::DeviceKind};
 use treadmill_runtime::{error_chain, machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory, output::say_result};
@@ -34,7 +34,7 @@ pub struct UpdateArgs {
     /// Dense networks, or networks that act mirrored in mirrored states.
     #[arg(long, value_enum, default_value = "equivariant")]
     symmetry: BenchSymmetry,
-    /// Device for the networks: cpu, or cuda in a build with that feature.
+    /// Device of the update: cpu, cuda (an NVIDIA GPU), or candle (Candle's tensors on the processor).
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceKind,
     /// Print one JSON object.
@@ -48,21 +48,9 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let device = args.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let networks = args.network.networks(args.symmetry)?;
     let minibatch = args.minibatch;
-    let config = PpoConfig { minibatch, batch: 4 * minibatch, ..PpoConfig::default() };
-    let mut random = seeds::stream(1, "bench-update", &[]);
-    let parameters = networks.initial_parameters(-0.5, &mut random);
-    let batch = random_batch(networks.shape(), config.batch as usize, &mut random);
     let threads = super::threads(args.threads.into());
-    let mut state = PpoState::new(networks, parameters, random, &config);
     let options = PpoOptions { device, ..PpoOptions::on_cpu(threads)? };
-    let ppo = Ppo::new(options, &config);
-    ppo.update(&mut state, &batch, config.epochs)?;
-    let begun = Instant::now();
-    let mut samples = 0;
-    for _ in 0..args.updates {
-        samples += ppo.update(&mut state, &batch, config.epochs)?.samples;
-    }
-    let samples_per_s = samples as f64 / begun.elapsed().as_secs_f64();
+    let (samples, samples_per_s, state) = measure(options, networks, minibatch, args.updates)?;
     let result = json!({
         "samples_per_s": rounded(samples_per_s),
         "minibatch": minibatch,
@@ -75,6 +63,28 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     });
     say_result(&result, args.json);
     Ok(())
+}
+
+/// Takes updates of four minibatches after one for warm-up. Returns samples, samples per second, and the state.
+pub(crate) fn measure(
+    options: PpoOptions,
+    networks: Networks,
+    minibatch: u32,
+    updates: u32,
+) -> anyhow::Result<(u64, f64, PpoState)> {
+    let config = PpoConfig { minibatch, batch: 4 * minibatch, ..PpoConfig::default() };
+    let mut random = seeds::stream(1, "bench-update", &[]);
+    let parameters = networks.initial_parameters(-0.5, &mut random);
+    let batch = random_batch(networks.shape(), config.batch as usize, &mut random);
+    let mut state = PpoState::new(networks, parameters, random, &config);
+    let ppo = Ppo::new(options, &config);
+    ppo.update(&mut state, &batch, config.epochs)?;
+    let begun = Instant::now();
+    let mut samples = 0;
+    for _ in 0..updates {
+        samples += ppo.update(&mut state, &batch, config.epochs)?.samples;
+    }
+    Ok((samples, samples as f64 / begun.elapsed().as_secs_f64(), state))
 }
 
 fn random_batch(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Batch {

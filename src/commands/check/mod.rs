@@ -2,9 +2,11 @@
 //!
 //! # Layout
 //! - [`machine`]: vector instructions, disk, memory, open files, clock and ports of this machine.
+//! - [`gpu`]: a GPU and its driver.
 //! - [`store`]: the store of a run's state.
 //! - [`learner`]: answer of a learner. The way to it and the certificates are diagnosed by `src/diagnosis/`.
 
+mod gpu;
 mod learner;
 pub(crate) mod machine;
 mod store;
@@ -73,6 +75,7 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
     let run = args.reach.run_folder()?;
     let mut findings = vec![
         machine::cpu(),
+        gpu::diagnose(),
         machine::disk(run.as_ref().map_or(&args.run_dir, |run| run.root())),
         machine::memory(args.actors.unwrap_or(cores() as u64)),
         machine::open_files(args.actors.unwrap_or(cores() as u64)),

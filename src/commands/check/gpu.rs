@@ -1,0 +1,71 @@
+//! Diagnosis of a GPU: driver, memory, and how long a gradient step takes there and on the processor.
+
+use treadmill_ppo::{
+    PpoOptions,
+    device::{Device, DeviceKind, GpuError},
+};
+use treadmill_runtime::{error_chain, machine::cores};
+
+use crate::{
+    commands::bench::{network, update},
+    diagnosis::finding::Finding,
+};
+
+/// Rows of the gradient steps that are measured: few, as the presets have, and many if that is quick.
+const MINIBATCHES: [u32; 2] = [512, 16_384];
+/// Gradient steps of an update that is measured.
+const STEPS: f64 = 20.0;
+/// Duration of a measurement on a fast device, and the longest one on a slow device, in seconds.
+const DURATION_S: f64 = 0.3;
+const DURATION_MAX_S: f64 = 3.0;
+
+/// Finds the first GPU, and compares it with the processor. A machine needs none.
+pub fn diagnose() -> Finding {
+    let device = match DeviceKind::Cuda.open() {
+        Ok(device) => device,
+        Err(GpuError::NoDriver) => return Finding::ok("gpu", "no NVIDIA driver: updates run on the processor"),
+        Err(why) => return Finding::note("gpu", error_chain(&why), "without it, updates run on the processor"),
+    };
+    let Device::Cuda(gpu, _) = &device else { return Finding::ok("gpu", "none") };
+    let name = format!("{}, driver for CUDA {}", gpu.name(), gpu.cuda_version());
+    match gpu.memory_bytes().map_err(anyhow::Error::from).and_then(|bytes| Ok((bytes, steps_us(&device)?))) {
+        Ok(([free, all], steps)) => {
+            let [free_mb, all_mb] = [free, all].map(|bytes| bytes / 1_000_000);
+            Finding::ok("gpu", format!("{name}, {free_mb} of {all_mb} MB free; {}", steps.join("; ")))
+        }
+        Err(why) => {
+            Finding::problem("gpu", format!("{name}: {why:#}"), "check `nvidia-smi`, or train with --device cpu")
+        }
+    }
+}
+
+/// Measures gradient steps. Returns a sentence for each number of rows.
+fn steps_us(gpu: &Device) -> anyhow::Result<Vec<String>> {
+    let mut sentences = Vec::new();
+    let mut slowest_us = 0.0;
+    for rows in MINIBATCHES {
+        // Steps on more rows take at most as many times longer.
+        if slowest_us * f64::from(rows / MINIBATCHES[0]) * STEPS > DURATION_MAX_S * 1e6 {
+            break;
+        }
+        let (there, here) = (step_us(gpu, rows)?, step_us(&Device::Cpu, rows)?);
+        slowest_us = there.max(here);
+        sentences
+            .push(format!("a gradient step on {rows} rows takes {there:.0} µs there, {here:.0} µs on the processor"));
+    }
+    Ok(sentences)
+}
+
+/// Returns the duration of a gradient step on so many rows, in microseconds.
+fn step_us(device: &Device, rows: u32) -> anyhow::Result<f64> {
+    let measure = |updates: u32| -> anyhow::Result<f64> {
+        let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(cores())? };
+        let (_, samples_per_s, _) = update::measure(options, network::usual(), rows, updates)?;
+        Ok(1e6 * f64::from(rows) / samples_per_s)
+    };
+    let rough_us = measure(1)?;
+    match (DURATION_S * 1e6 / (STEPS * rough_us)) as u32 {
+        0 => Ok(rough_us),
+        updates => measure(updates),
+    }
+}
