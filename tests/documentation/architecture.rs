@@ -8,16 +8,16 @@ use std::{
 
 /// Third-party crates, and the only folders whose packages may depend on them; "(dev)" marks dev-dependencies. The tests of
 /// hostile clients need Zenoh itself.
-const DEPENDENTS: [(&str, &[&str]); 18] = [
+const DEPENDENTS: [(&str, &[&str]); 19] = [
     ("axum", &["."]),
     ("bincode", &["learner"]),
     ("candle-core", &["common/policy", "learner/ppo"]),
     ("candle-nn", &["common/policy", "learner/ppo"]),
+    ("cudarc", &["learner/gpu"]),
     ("gemm", &["common/policy"]),
     ("libfuzzer-sys", &["fuzz"]),
     ("numpy", &["python/treadmill_gym"]),
     ("object_store", &["common/store"]),
-    ("cudarc", &["learner/gpu"]),
     ("prometheus-client", &["learner"]),
     ("prost", &["proto"]),
     ("prost-build", &["proto"]),
