@@ -59,12 +59,8 @@ pub struct MotionCommandArgs {
 
 /// Prints the report.
 pub fn run(args: &MotionCommandArgs) -> anyhow::Result<()> {
-    for path in args.film.iter().chain(&args.save) {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            return Err(Usage(format!("the folder `{}` does not exist", folder.display())).into());
-        }
-    }
+    Usage::unless_writable("--film", args.film.as_deref())?;
+    Usage::unless_writable("--save", args.save.as_deref())?;
     let mut config = Config::default();
     config.env.robot = args.card.clone().unwrap_or_default();
     let text = model::completed(&config, args.model.as_deref(), &args.files, "")?;

@@ -5,7 +5,7 @@ use treadmill_humanoid::{Model, PHYSICS_VERSION, card::BodySize};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_ppo::settings;
 use treadmill_proto::limits::fragment_envs_max;
-use treadmill_runtime::{run_folder::RunFolder, run_lock::RunLock, seeds};
+use treadmill_runtime::{machine, run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
     automatic,
@@ -32,6 +32,10 @@ pub fn begin(
     let Sources { source, fork, init_from } = sources(launcher, new, any, changes)?;
     let mut config = source.build()?;
     complete(&mut config);
+    if config.learner.chunk_rows == 0 {
+        let threads = machine::threads(config.learner.threads as usize);
+        config.learner.chunk_rows = settings::chunk_rows(&config.ppo, threads);
+    }
     check_external(launcher.command, &config, any)?;
     match fork {
         Some(fork) => branch_off(launcher, new, any, config, fork),

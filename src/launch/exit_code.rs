@@ -1,10 +1,10 @@
 //! Error messages and exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
 
-use std::process::ExitCode;
+use std::{path::Path, process::ExitCode};
 
 use treadmill_bus::BusError;
 use treadmill_config::ConfigError;
-use treadmill_runtime::{error_chain, run_folder::RunFolderError};
+use treadmill_runtime::{atomic_file, error_chain, run_folder::RunFolderError};
 
 use crate::launch::output::say_error;
 
@@ -12,6 +12,14 @@ use crate::launch::output::say_error;
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Usage(pub String);
+
+impl Usage {
+    /// Tests that the file of a flag can be written, before the work whose result it is for.
+    pub fn unless_writable(flag: &str, path: Option<&Path>) -> Result<(), Self> {
+        let refused = |path: &Path, why| Self(format!("{flag} {}: it cannot be written: {why}", path.display()));
+        path.map_or(Ok(()), |path| atomic_file::check(path).map_err(|why| refused(path, why)))
+    }
+}
 
 /// Prints an error with all its causes, and returns the exit code of the process.
 pub fn exit_code(done: anyhow::Result<()>) -> ExitCode {

@@ -122,6 +122,10 @@ fn a_robot_can_be_played_and_timed_without_a_run() {
 fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
     let (folder, run) = folders();
     write(folder.path(), "hopper.xml", HOPPER);
+    for flag in ["--png", "--draft"] {
+        let refused = self::run(folder.path(), &["robot", "hopper.xml", flag, "absent/file"]);
+        assert_refused(&refused, 2, &[flag, "absent/file: it cannot be written", "No such file"]);
+    }
     let drafted = done(folder.path(), &["robot", "hopper.xml", "--png", "hopper.png"]);
     let report = stdout(&drafted);
     for part in

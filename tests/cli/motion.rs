@@ -41,7 +41,11 @@ fn a_file_is_described_filmed_and_written_in_another_form() {
     assert!(npz["order"].as_str().unwrap().starts_with("depth first, as in MuJoCo; bodies agree"), "{npz}");
     let lowest = |of: &serde_json::Value| numbers(&of["lowest_m"]);
     assert!(lowest(&csv).iter().zip(lowest(&npz)).all(|(one, other)| (one - other).abs() < 1e-4), "{csv} {npz}");
-    assert_refused(&run(folder, &["motion", "squat.npz", "--model", "robot.toml", "--film", "no/f.gif"]), 2, &["`no`"]);
+    assert_refused(
+        &run(folder, &["motion", "squat.npz", "--model", "robot.toml", "--film", "no/f.gif"]),
+        2,
+        &["--film no/f.gif"],
+    );
 }
 
 #[test]

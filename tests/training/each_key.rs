@@ -12,7 +12,7 @@ fn another(key: &KeyDoc, value: &Value) -> Option<Value> {
     let quoted = key.allowed.split('"').skip(1).step_by(2).map(Value::from);
     let candidates: Vec<Value> = match value {
         Value::Boolean(is) => vec![(!is).into()],
-        Value::Integer(number) => vec![(number + 1).into(), (number - 1).into(), (2 * number).into()],
+        Value::Integer(number) => [number + 1, number - 1, 2 * number, number / 2].map(Value::from).to_vec(),
         Value::Float(number) => [0.5 * number, 1.1 * number, 0.25, -1.0].map(Value::from).to_vec(),
         Value::String(_) => quoted.chain(["other".into()]).collect(),
         Value::Array(_) => ["[0.75, 1.25]", "[0, 1]", "[0.5, 2.0]", "[16]", "[\"slope\"]", "[\"other\"]"]

@@ -49,7 +49,7 @@ fn a_batch_that_does_not_fit_is_refused_with_one_that_does() {
     stand_in::build(folder);
     let small = [("STAND_IN_BYTES", "10000000")];
     let output = with_driver(folder, &train(path, &[]), &small);
-    assert_refused(&output, 1, &["10 MB of free memory", "ppo.batch_max = 131072", "--set ppo.batch_max="]);
+    assert_refused(&output, 1, &["10 MB of usable memory", "ppo.batch_max = 131072", "--set ppo.batch_max="]);
     let text = stderr(&output);
     let (_, rest) = text.split_once("--set ").unwrap();
     let (key, _) = rest.split_once(" fits").unwrap();

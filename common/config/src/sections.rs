@@ -151,6 +151,9 @@ section! {
     LearnerConfig as "learner" {
         /// Threads of the update; 0 means one per core.
         threads: u32 = 0, "0 to 256" => |v| *v <= 256;
+        /// Rows of a gradient step that a thread takes at a time; results depend on it in their last bits. A new run
+        /// replaces 0 by the most, up to 256, with which its threads all find work; later 0 means 256.
+        chunk_rows: u32 = 0, "0, 64, 128 or 256" => |v| [0, 64, 128, 256].contains(v);
         /// Whether a batch holds only experience of the newest policy and actors wait ("sync"), or also of older ones and
         /// actors never idle ("async").
         mode: LearnerMode = LearnerMode::Sync, "\"sync\" or \"async\"" => |_| true;

@@ -42,6 +42,18 @@ pub fn write_quickly(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
+/// Tests that `path` can be written, before the work whose result it is for.
+///
+/// # Errors
+/// The system's error, such as a missing folder or permission.
+pub fn check(path: &Path) -> io::Result<()> {
+    match destination(path) {
+        Destination::Stream(_) => Ok(()),
+        Destination::File(path) if path.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Destination::File(path) => with_temporary(&path, |temporary, _| fs::remove_file(temporary)).map(drop),
+    }
+}
+
 /// Where a path leads.
 #[derive(Debug)]
 pub enum Destination {
@@ -200,6 +212,22 @@ mod tests {
         std::os::unix::fs::symlink("/dev/null", &device).unwrap();
         write(&device, b"three").unwrap();
         assert!(device.is_symlink() && !fs::metadata(&device).unwrap().is_file());
+    }
+
+    #[test]
+    fn a_check_finds_what_cannot_be_written_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture");
+        check(&path).unwrap();
+        check(Path::new("/dev/null")).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert_eq!(check(folder.path()).unwrap_err().kind(), io::ErrorKind::IsADirectory);
+        assert_eq!(check(&path.join("absent/picture")).unwrap_err().kind(), io::ErrorKind::NotFound);
+        // Not even root can create files in /proc.
+        assert!(check(Path::new("/proc/self/picture")).is_err());
+        fs::write(&path, b"old").unwrap();
+        check(&path).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"old");
     }
 
     #[test]

@@ -18,6 +18,11 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, |cores| cores.get())
 }
 
+/// Returns the number of threads that a setting or a flag asks for; 0 means one per core.
+pub fn threads(wanted: usize) -> usize {
+    if wanted == 0 { cores() } else { wanted }
+}
+
 /// Returns the memory that this process and its siblings may use together (bytes): that of the machine, or less by a control
 /// group of version 2, as in a container. `None` where the system does not report it.
 pub fn memory_bytes() -> Option<u64> {

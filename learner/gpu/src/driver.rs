@@ -58,7 +58,13 @@ impl Gpu {
         unsafe { context.disable_event_tracking() };
         let stream = context.new_stream().map_err(absent)?;
         let module = context.load_module(Ptx::from_src(PTX)).map_err(absent)?;
-        let kernels: Result<_, _> = KERNELS.iter().map(|name| Ok((*name, module.load_function(name)?))).collect();
+        let load = |name: &Kernel| {
+            let kernel = module.load_function(name)?;
+            // A question about it makes the driver load it now, and not in a capture.
+            kernel.num_regs()?;
+            Ok((*name, kernel))
+        };
+        let kernels: Result<_, _> = KERNELS.iter().map(load).collect();
         let name = context.name().map_err(absent)?;
         Ok(Self { kernels: Arc::new(kernels.map_err(absent)?), context, stream, name, version: shown })
     }
@@ -151,12 +157,18 @@ impl Memory {
         self.gpu.stream.clone_dtoh(&self.controls.slice(range)).map_err(failed("computed a pass"))
     }
 
-    /// Copies numbers to another part of their array; the parts do not overlap.
-    pub(crate) fn copy(&mut self, from: Range<usize>, to: usize) -> Result<(), GpuError> {
-        let failed = failed("copied parameters");
-        let copied = self.gpu.stream.clone_dtod(&self.numbers.slice(from)).map_err(&failed)?;
-        let mut target = self.numbers.slice_mut(to..to + copied.len());
-        self.gpu.stream.memcpy_dtod(&copied, &mut target).map_err(failed)
+    /// Copies the state to its backup.
+    pub(crate) fn save(&mut self, layout: &MemoryLayout) -> Result<(), GpuError> {
+        let (mut below, mut above) = self.numbers.split_at_mut(layout.backup.start);
+        let (state, mut backup) = (below.slice_mut(layout.state.clone()), above.slice_mut(..layout.backup.len()));
+        self.gpu.stream.memcpy_dtod(&state, &mut backup).map_err(failed("copied parameters"))
+    }
+
+    /// Copies the backup to the state.
+    pub(crate) fn restore(&mut self, layout: &MemoryLayout) -> Result<(), GpuError> {
+        let (mut below, mut above) = self.numbers.split_at_mut(layout.backup.start);
+        let (mut state, backup) = (below.slice_mut(layout.state.clone()), above.slice_mut(..layout.backup.len()));
+        self.gpu.stream.memcpy_dtod(&backup, &mut state).map_err(failed("copied parameters"))
     }
 
     /// Captures launches as a graph, which runs them without a call of the driver for each.

@@ -26,12 +26,12 @@ pub enum GpuError {
     },
     /// The memory of the GPU is too small.
     #[error(
-        "the GPU has {free_mb} MB of free memory, and updates with ppo.batch_max = {batch_max} need {needed_mb} MB; \
+        "the GPU has {usable_mb} MB of usable memory, and updates with ppo.batch_max = {batch_max} need {needed_mb} MB; \
          {remedy}, or use --device cpu"
     )]
     Memory {
-        /// Free memory in MB.
-        free_mb: u64,
+        /// Free memory that kernels can use, in MB.
+        usable_mb: u64,
         /// Memory that updates need in MB.
         needed_mb: u64,
         /// Largest batch, in transitions.

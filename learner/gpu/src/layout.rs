@@ -71,9 +71,9 @@ pub(crate) struct LayerRows {
 /// Offsets into the array of numbers, unless stated.
 #[derive(Clone, Debug)]
 pub(crate) struct MemoryLayout {
-    /// Parameters, then both moments of Adam.
+    /// Parameters, then both moments of Adam; the first of all numbers.
     pub(crate) state: Range<usize>,
-    /// Copy of it from before a pass.
+    /// Copy of it from before a pass; it follows.
     pub(crate) backup: Range<usize>,
     pub(crate) gradient: usize,
     /// Weights as the forward pass reads them.

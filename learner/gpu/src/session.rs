@@ -13,6 +13,8 @@ use crate::{
 
 /// Free entries for fields below which graphs are forgotten: room for the two numbers of rows of a pass.
 const FIELDS_MIN: usize = 1 << 14;
+/// Most memory of a session: kernels count numbers in 32 bits.
+const BYTES_MAX: u64 = 4 * u32::MAX as u64;
 /// How far Adam's running means are kept in a step; see `treadmill_ppo::optimiser`.
 const KEPT: [f64; 2] = [0.9, 0.999];
 
@@ -112,8 +114,9 @@ impl Session {
         let (structure, room) = (networks.structure(), room(networks, batch, minibatch, measured));
         let layout = MemoryLayout::new(&structure, &room);
         let [free, _] = gpu.memory_bytes()?;
-        if layout.bytes() > free || u32::try_from(layout.numbers).is_err() {
-            return Err(too_large(networks, &room, free));
+        let usable = free.min(BYTES_MAX);
+        if layout.bytes() > usable {
+            return Err(too_large(networks, &room, usable));
         }
         let mut memory = Memory::new(gpu, &layout)?;
         let sign = |sign: i8| if sign < 0 { 2 } else { sign as u32 };
@@ -188,7 +191,7 @@ impl Session {
     /// If the driver fails.
     pub fn pass(&mut self, order: &[u32], sizes: &[usize], settings: &PassSettings) -> Result<PassSums, GpuError> {
         assert!(order.len() == self.rows && sizes.iter().sum::<usize>() == self.rows, "all rows of the batch");
-        self.memory.copy(self.layout.state.clone(), self.layout.backup.start)?;
+        self.memory.save(&self.layout)?;
         self.memory.write_integers(self.layout.order, order)?;
         if self.fields + FIELDS_MIN > self.layout.fields.end {
             self.forget_graphs();
@@ -244,7 +247,7 @@ impl Session {
     /// If the driver fails.
     pub fn undo(&mut self, steps: u64) -> Result<(), GpuError> {
         self.taken -= steps;
-        self.memory.copy(self.layout.backup.clone(), self.layout.state.start)
+        self.memory.restore(&self.layout)
     }
 
     /// Returns the steps of Adam, parameters, first and second moments.
@@ -289,13 +292,18 @@ impl Session {
 }
 
 /// Returns the error for a batch that does not fit, with one that does.
-fn too_large(networks: &Networks, wanted: &Room, free: u64) -> GpuError {
+fn too_large(networks: &Networks, wanted: &Room, usable: u64) -> GpuError {
     let bytes = |batch: usize| memory_bytes(networks, batch, wanted.minibatch.min(batch.max(1)), wanted.measured);
-    let fitting = (0..wanted.batch.ilog2()).rev().map(|power| 1_usize << power).find(|batch| bytes(*batch) <= free);
+    let fitting = (0..wanted.batch.ilog2()).rev().map(|power| 1_usize << power).find(|batch| bytes(*batch) <= usable);
     let remedy = match fitting {
         Some(batch) => format!("--set ppo.batch_max={batch} fits"),
         None => "no batch fits: free its memory (check `nvidia-smi`)".to_string(),
     };
     let mb = |bytes: u64| bytes.div_ceil(1_000_000);
-    GpuError::Memory { free_mb: free / 1_000_000, needed_mb: mb(bytes(wanted.batch)), batch_max: wanted.batch, remedy }
+    GpuError::Memory {
+        usable_mb: usable / 1_000_000,
+        needed_mb: mb(bytes(wanted.batch)),
+        batch_max: wanted.batch,
+        remedy,
+    }
 }

@@ -16,6 +16,7 @@ use crate::{
     slice_gradient::SliceGradient,
     state::PpoState,
     tensor_gradient::TensorGradient,
+    update::PpoOptions,
     update_stats::{UpdateError, UpdateStats, check_finite},
 };
 
@@ -56,15 +57,16 @@ impl<'a> CpuPasses<'a> {
         advantages: &'a [f32],
         networks: &'a Networks,
         config: &'a PpoConfig,
-        (device, pool): (&Device, &'a ThreadPool),
+        options: &'a PpoOptions,
         parameters: &[f32],
     ) -> Result<Self, UpdateError> {
-        let gradient = match device {
+        let gradient = match options.device {
             Device::Candle => Gradient::Tensors(TensorGradient::upload(batch, advantages, networks, config)?),
-            _ => Gradient::Slices(SliceGradient::new(batch, advantages, networks, config).into()),
+            _ => Gradient::Slices(SliceGradient::new(batch, advantages, networks, config, options.chunk_rows).into()),
         };
         let shift = PolicyShift::new(batch, networks, parameters);
         let flat = vec![0.0; parameters.len()];
+        let pool = &options.pool;
         Ok(Self { gradient, flat, networks, config, pool, shift, before: (Vec::new(), OptimiserState::default()) })
     }
 

@@ -25,6 +25,12 @@ pub fn choose(config: &mut PpoConfig, networks: &Networks) {
     config.choose_batch(networks.mirror().is_some());
 }
 
+/// Returns the most rows of a chunk with which so many threads of an update find work: each network has a task per chunk.
+pub fn chunk_rows(config: &PpoConfig, threads: usize) -> u32 {
+    let has_work = |rows: &u32| 2 * config.minibatch_rows().div_ceil(*rows as usize) >= threads;
+    [256, 128].into_iter().find(has_work).unwrap_or(64)
+}
+
 /// Checks that networks are of the kind that `ppo.symmetry` asks for.
 ///
 /// # Errors
@@ -52,5 +58,18 @@ impl BatchSize {
     pub fn of(config: &PpoConfig) -> Self {
         let transitions = config.batch as usize;
         Self { transitions, transitions_max: transitions.max(config.batch_max as usize) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunks_are_as_large_as_leaves_every_thread_some() {
+        let rows = |minibatch, threads| chunk_rows(&PpoConfig { minibatch, ..PpoConfig::default() }, threads);
+        assert_eq!([1, 2, 4, 5, 8, 9, 16, 64].map(|threads| rows(512, threads)), [256, 256, 256, 128, 128, 64, 64, 64]);
+        assert_eq!([16, 17, 256].map(|threads| rows(2048, threads)), [256, 128, 64]);
+        assert_eq!(rows(0, 4), 256, "0 means 512");
     }
 }

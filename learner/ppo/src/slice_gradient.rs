@@ -1,6 +1,6 @@
 //! Gradient of the loss on a processor, on plain slices: gather, forward, loss, backward.
 //!
-//! **Results do not depend on the number of threads.** The rows of a minibatch are divided into chunks of [`CHUNK_ROWS`].
+//! **Results do not depend on the number of threads.** The rows of a minibatch are divided into chunks.
 //! Chunk `c` adds its gradient to lane `c mod L`, where `L` follows from the number of rows. Each lane processes its
 //! chunks in order, and lanes are summed in order.
 
@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{CHUNK_ROWS, ForwardWeights, Mlp, Networks, Tape};
+use treadmill_policy::{ForwardWeights, Mlp, Networks, Tape};
 
 use crate::{
     batch::Batch,
@@ -38,6 +38,8 @@ pub(crate) struct SliceGradient<'a> {
     critic: Mlp,
     actor_weights: ForwardWeights,
     critic_weights: ForwardWeights,
+    /// Rows of a chunk.
+    chunk_rows: usize,
     /// Most partial gradients per network.
     lanes_max: usize,
     actor_lanes: Vec<Lane>,
@@ -55,10 +57,16 @@ struct Lane {
 }
 
 impl<'a> SliceGradient<'a> {
-    pub(crate) fn new(batch: &'a Batch, advantages: &'a [f32], networks: &'a Networks, config: &'a PpoConfig) -> Self {
+    pub(crate) fn new(
+        batch: &'a Batch,
+        advantages: &'a [f32],
+        networks: &'a Networks,
+        config: &'a PpoConfig,
+        chunk_rows: usize,
+    ) -> Self {
         let (actor, critic) = (networks.actor(), networks.critic());
         let inputs = critic.inputs(&batch.observations);
-        let lane = |network: &Mlp| network.range().len() + CHUNK_ROWS * network.tape_width();
+        let lane = |network: &Mlp| network.range().len() + chunk_rows * network.tape_width();
         let lane_bytes = size_of::<f32>() * (lane(&actor) + lane(&critic));
         let lanes_max = LANES_MIN.max(LANE_BYTES_MAX / lane_bytes);
         Self {
@@ -72,6 +80,7 @@ impl<'a> SliceGradient<'a> {
             critic,
             actor_weights: ForwardWeights::default(),
             critic_weights: ForwardWeights::default(),
+            chunk_rows,
             lanes_max,
             actor_lanes: Vec::new(),
             critic_lanes: Vec::new(),
@@ -83,19 +92,21 @@ impl<'a> SliceGradient<'a> {
     pub(crate) fn compute(&mut self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> LossSums {
         let Self { batch, networks, inputs, gathered, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
         let shape = networks.shape();
-        let columns = shape.observation;
+        let (columns, chunk) = (shape.observation, self.chunk_rows);
         gathered.resize(rows.len() * columns, 0.0);
         rayon::join(
-            || gather(inputs, columns, rows, gathered),
+            || gather(inputs, columns, rows, gathered, chunk),
             || {
-                actor.prepare(parameters, &mut self.actor_weights);
-                critic.prepare(parameters, &mut self.critic_weights);
+                rayon::join(
+                    || actor.prepare(parameters, &mut self.actor_weights),
+                    || critic.prepare(parameters, &mut self.critic_weights),
+                )
             },
         );
         let (gathered, actor_weights, critic_weights) = (&*gathered, &self.actor_weights, &self.critic_weights);
         let terms = LossTerms::new(batch, self.advantages, config, &networks.log_std(parameters), rows.len());
-        let lanes = rows.len().div_ceil(CHUNK_ROWS).min(self.lanes_max);
-        let chunks = || rows.chunks(CHUNK_ROWS).zip(gathered.chunks(CHUNK_ROWS * columns));
+        let lanes = rows.len().div_ceil(chunk).min(self.lanes_max);
+        let chunks = || rows.chunks(chunk).zip(gathered.chunks(chunk * columns));
         let chunks_of = |lane: usize| chunks().skip(lane).step_by(lanes).enumerate();
         actor_lanes.resize_with(lanes, Lane::default);
         critic_lanes.resize_with(lanes, Lane::default);
@@ -143,9 +154,9 @@ impl Lane {
     }
 }
 
-/// Copies rows of `inputs` to `gathered`; both have so many columns.
-fn gather(inputs: &[f32], columns: usize, rows: &[u32], gathered: &mut [f32]) {
-    let chunks = gathered.par_chunks_mut(CHUNK_ROWS * columns).zip(rows.par_chunks(CHUNK_ROWS));
+/// Copies rows of `inputs` to `gathered`, a chunk of rows at a time; both have so many columns.
+fn gather(inputs: &[f32], columns: usize, rows: &[u32], gathered: &mut [f32], chunk: usize) {
+    let chunks = gathered.par_chunks_mut(chunk * columns).zip(rows.par_chunks(chunk));
     chunks.for_each(|(gathered, rows)| {
         for (target, row) in gathered.chunks_exact_mut(columns).zip(rows) {
             target.copy_from_slice(&inputs[*row as usize * columns..][..columns]);

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
-use treadmill_policy::{NetworkShape, PolicyMirror, gaussian::log_probabilities};
+use treadmill_policy::{CHUNK_ROWS, NetworkShape, PolicyMirror, gaussian::log_probabilities};
 
 use super::*;
 use crate::tensor_gradient::TensorGradient;
@@ -63,13 +63,15 @@ fn check(networks: &Networks, rows: usize, lanes_max: Option<usize>, config: &Pp
     let on_tensors = TensorGradient::upload(&batch, &batch.advantages, networks, config);
     let expected_loss = on_tensors.and_then(|t| t.compute(&order, &parameters, &mut expected)).expect("candle runs");
 
-    let mut slices = SliceGradient::new(&batch, &batch.advantages, networks, config);
-    slices.lanes_max = lanes_max.unwrap_or(slices.lanes_max);
-    // Twice, because memory is used again.
-    for _ in 0..2 {
-        let mut found = vec![f32::NAN; networks.parameter_count()];
+    // The largest chunks twice, because memory is used again.
+    let mut slices = [CHUNK_ROWS, 64].map(|chunk_rows| {
+        let slices = SliceGradient::new(&batch, &batch.advantages, networks, config, chunk_rows);
+        SliceGradient { lanes_max: lanes_max.unwrap_or(slices.lanes_max), ..slices }
+    });
+    for chunk in [0, 0, 1] {
+        let (slices, mut found) = (&mut slices[chunk], vec![f32::NAN; networks.parameter_count()]);
         let loss = slices.compute(&order, &parameters, &mut found);
-        assert_eq!(slices.actor_lanes.len(), lanes_max.unwrap_or(rows.div_ceil(CHUNK_ROWS)));
+        assert_eq!(slices.actor_lanes.len(), lanes_max.unwrap_or(rows.div_ceil(slices.chunk_rows)));
         for (found, expected) in [
             (loss.policy, expected_loss.policy),
             (loss.value, expected_loss.value),
@@ -127,7 +129,7 @@ fn a_batch_with_its_mirror_image_gives_dense_networks_the_same_gradient() {
     let (mut batch, parameters) = experience(&networks, rows, 3);
     let order: Vec<u32> = (0..2 * rows as u32).collect();
     let mut found = vec![0.0; networks.parameter_count()];
-    SliceGradient::new(&batch, &batch.advantages, &networks, &config()).compute(
+    SliceGradient::new(&batch, &batch.advantages, &networks, &config(), CHUNK_ROWS).compute(
         &order[..rows],
         &parameters,
         &mut found,
@@ -146,7 +148,7 @@ fn a_batch_with_its_mirror_image_gives_dense_networks_the_same_gradient() {
     }
     let dense = Networks::from(networks.shape().clone());
     let mut gradient = vec![0.0; dense.parameter_count()];
-    SliceGradient::new(&batch, &batch.advantages, &dense, &config()).compute(
+    SliceGradient::new(&batch, &batch.advantages, &dense, &config(), CHUNK_ROWS).compute(
         &order,
         &networks.dense(&parameters),
         &mut gradient,
@@ -181,7 +183,7 @@ proptest! {
 fn every_chunk_has_its_own_lane_while_memory_allows() {
     let lanes_max = |observation, hidden: &[usize]| {
         let shape = NetworkShape { observation, action: 17, hidden: hidden.to_vec(), privileged: 0 };
-        SliceGradient::new(&Batch::default(), &[], &shape.into(), &PpoConfig::default()).lanes_max
+        SliceGradient::new(&Batch::default(), &[], &shape.into(), &PpoConfig::default(), CHUNK_ROWS).lanes_max
     };
     let found = [lanes_max(45, &[256, 128]), lanes_max(348, &[512, 256]), lanes_max(4096, &[4096; 4])];
     assert_eq!(found, [47, 16, LANES_MIN]);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use treadmill_config::PpoConfig;
 use treadmill_gpu::GpuError;
-use treadmill_policy::{Networks, ParameterError, Policy};
+use treadmill_policy::{CHUNK_ROWS, Networks, ParameterError, Policy};
 
 use crate::{
     batch::{Batch, shuffle, weighted_advantages},
@@ -29,6 +29,8 @@ pub struct PpoOptions {
     pub device: Device,
     /// Threads of the update on a CPU; the results do not depend on their number.
     pub pool: Arc<ThreadPool>,
+    /// Rows of a gradient step that a thread takes at a time.
+    pub chunk_rows: usize,
     /// Limit of normalised observations.
     pub observation_clip: f32,
 }
@@ -41,7 +43,7 @@ impl PpoOptions {
     pub fn on_cpu(threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let builder = ThreadPoolBuilder::new().thread_name(|index| format!("update-{index}"));
         let pool = builder.num_threads(threads).build()?;
-        Ok(Self { device: Device::Cpu, pool: Arc::new(pool), observation_clip: 10.0 })
+        Ok(Self { device: Device::Cpu, pool: Arc::new(pool), chunk_rows: CHUNK_ROWS, observation_clip: 10.0 })
     }
 }
 
@@ -113,12 +115,12 @@ impl Ppo {
     }
 
     fn run_epochs(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
-        let (PpoOptions { device, pool, .. }, config) = (&self.options, &self.config);
+        let (PpoOptions { device, .. }, config) = (&self.options, &self.config);
         let networks = &state.networks.clone();
         let advantages = weighted_advantages(batch);
         let mut passes: Box<dyn Passes> = match device {
             Device::Cuda(gpu, session) => Box::new(GpuPasses::new(batch, &advantages, state, config, (gpu, session))?),
-            _ => Box::new(CpuPasses::new(batch, &advantages, networks, config, (device, pool), &state.parameters)?),
+            _ => Box::new(CpuPasses::new(batch, &advantages, networks, config, &self.options, &state.parameters)?),
         };
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
         let mut stats = UpdateStats {

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use treadmill_config::Config;
+use treadmill_policy::CHUNK_ROWS;
 use treadmill_ppo::{
     Implausible, Improvement, LoadAdaptation, Ppo, PpoOptions, PpoState, TrainedPolicy, UpdateError, UpdateStats,
 };
@@ -48,12 +49,13 @@ impl Learning {
         options: &TrainingOptions,
     ) -> Result<Self, TrainingError> {
         let invalid = |why: &dyn std::error::Error| TrainingError::State { why: error_chain(why) };
-        let threads = match config.learner.threads {
-            0 => machine::cores(),
-            threads => threads as usize,
-        };
+        let threads = machine::threads(config.learner.threads as usize);
         let ppo_options = PpoOptions {
             device: options.device.clone(),
+            chunk_rows: match config.learner.chunk_rows {
+                0 => CHUNK_ROWS,
+                rows => rows as usize,
+            },
             observation_clip: config.policy.observation_clip as f32,
             ..PpoOptions::on_cpu(threads).map_err(|why| invalid(&why))?
         };

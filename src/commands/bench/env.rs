@@ -58,7 +58,7 @@ pub fn run(args: &EnvArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     // Reports errors of the model file.
     model::environment(tasks, &config, &text, file)?;
     let environment = config.environment();
-    let threads = WORLDS.div_ceil(worlds_per_thread(super::threads(args.threads.into())));
+    let threads = WORLDS.div_ceil(worlds_per_thread(machine::threads(args.threads.into())));
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let has_other_task = model::has_other_task(&config.env);
     let workload = Workload::new(tasks, &environment, &text, threads, rounds)?;

@@ -13,7 +13,6 @@ pub(crate) mod update;
 
 use clap::{Args, Subcommand};
 use treadmill_humanoid::TaskRegistry;
-use treadmill_runtime::machine;
 
 /// Flags of `bench`.
 #[derive(Args)]
@@ -47,9 +46,4 @@ pub fn run(args: BenchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
 /// Rounds to one decimal.
 fn rounded(rate: f64) -> f64 {
     (rate * 10.0).round() / 10.0
-}
-
-/// Returns the number of threads for a flag's value; 0 means one per core.
-fn threads(wanted: usize) -> usize {
-    if wanted == 0 { machine::cores() } else { wanted }
 }

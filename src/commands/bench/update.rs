@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 use treadmill_config::PpoConfig;
 use treadmill_policy::{NetworkShape, Networks, gaussian};
-use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState, device::DeviceKind};
+use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState, device::DeviceKind, settings};
 use treadmill_runtime::{error_chain, machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory, output::say_result};
@@ -25,6 +25,9 @@ pub struct UpdateArgs {
     /// Threads of the update; 0 means one per core.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     threads: u16,
+    /// Rows that a thread takes at a time; 0 means what a new run has for so many threads.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=4096))]
+    chunk_rows: u32,
     /// Transitions per gradient step.
     #[arg(long, default_value_t = 2048, value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     minibatch: u32,
@@ -48,8 +51,12 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let device = args.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let networks = args.network.networks(args.symmetry)?;
     let minibatch = args.minibatch;
-    let threads = super::threads(args.threads.into());
-    let options = PpoOptions { device, ..PpoOptions::on_cpu(threads)? };
+    let threads = machine::threads(args.threads.into());
+    let chunk_rows = match args.chunk_rows {
+        0 => settings::chunk_rows(&PpoConfig { minibatch, ..PpoConfig::default() }, threads),
+        rows => rows,
+    };
+    let options = PpoOptions { device, chunk_rows: chunk_rows as usize, ..PpoOptions::on_cpu(threads)? };
     let (samples, samples_per_s, state) = measure(options, networks, minibatch, args.updates)?;
     let result = json!({
         "samples_per_s": rounded(samples_per_s),
@@ -57,6 +64,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
         "network": format!("{} actor and critic", args.network),
         "device": args.device.name(),
         "threads": threads,
+        "chunk_rows": chunk_rows,
         "cpu": machine::cpu_name(),
         "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),
         "checksum": network::checksum(state.parameters()),

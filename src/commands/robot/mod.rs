@@ -45,6 +45,8 @@ pub struct RobotArgs {
 
 /// Prints the report; for an MJCF or URDF file as comments of the card that is found.
 pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
+    Usage::unless_writable("--draft", args.draft.as_deref())?;
+    Usage::unless_writable("--png", args.png.as_deref())?;
     let mut config = Config::default();
     config.env.robot = args.card.clone().unwrap_or_default();
     let text = model::completed(&config, Some(&args.file), &args.files, "")?;
