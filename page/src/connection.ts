@@ -6,6 +6,8 @@ const PAUSE_MS_MIN = 200;
 const PAUSE_MS_MAX = 2000;
 /** A connection that lasted this long makes the pause short again. */
 const LASTED_MS = 2000;
+/** Code of a server that ends. */
+const AWAY = 1001;
 
 /** Any message to the server, as an initialiser. */
 export type Request = NonNullable<MessageInitShape<typeof FromPageSchema>["kind"]>;
@@ -17,7 +19,7 @@ export class Connection {
 
   constructor(
     private readonly received: (message: ToPage) => void,
-    private readonly changed: (connected: boolean) => void,
+    private readonly changed: (connected: boolean, reason: string) => void,
   ) {
     this.open();
   }
@@ -34,13 +36,13 @@ export class Connection {
     let opened_ms = Infinity;
     socket.onopen = () => {
       opened_ms = performance.now();
-      this.changed((this.connected = true));
+      this.changed((this.connected = true), "");
     };
     socket.onmessage = (event) => {
       if (event.data instanceof ArrayBuffer) this.received(fromBinary(ToPageSchema, new Uint8Array(event.data)));
     };
-    socket.onclose = () => {
-      this.changed((this.connected = false));
+    socket.onclose = ({ code, reason }) => {
+      this.changed((this.connected = false), code === AWAY ? reason : "");
       if (performance.now() - opened_ms > LASTED_MS) this.pause_ms = PAUSE_MS_MIN;
       setTimeout(() => this.open(), this.pause_ms);
       this.pause_ms = Math.min(2 * this.pause_ms, PAUSE_MS_MAX);

@@ -23,8 +23,14 @@ const transport = new Transport(timeline, view);
 const panels = new Panels(timeline);
 const charts = new Charts();
 const fleet = new Fleet();
-const connection = new Connection(receive, (connected) => {
+/** Why the server has ended, if it said so. */
+let ended = "";
+const connection = new Connection(receive, (connected, reason) => {
+  // The reason stays while further attempts fail.
+  if (reason !== "" || connected) ended = reason;
+  say(element("banner"), ended || "Connection lost; trying again");
   element("banner").hidden = connected;
+  document.body.classList.toggle("lost", !connected);
   if (!connected) return;
   charts.restart();
   fleet.restart();
@@ -108,7 +114,7 @@ function draw(now_ms: number): void {
   panels_ms = now_ms;
   transport.update();
   panels.update();
-  steering.update(timeline.newest(0));
+  steering.update(timeline.sample(0)?.before.frame ?? timeline.newest(0));
   const curves = charts.update();
   element("curves").hidden = element("tab-curves").hidden = !curves;
   const status = fleet.update(now_ms);

@@ -62,8 +62,10 @@ export class Steering {
       if (key === "x" || key === "0") this.setAll([0, 0, 0]);
       const axis = KEYS.findIndex((keys) => keys.includes(key));
       if (axis < 0) return;
-      const steps = Math.round(this.command[axis]! / KEY_STEP) + (KEYS[axis]![0] === key ? 1 : -1);
-      this.set(axis, steps * KEY_STEP);
+      // A key that takes over begins from rest, so that `w` leads straight ahead.
+      const from = this.follows ? this.command : [0, 0, 0];
+      const steps = Math.round(from[axis]! / KEY_STEP) + (KEYS[axis]![0] === key ? 1 : -1);
+      this.setAll(from.map((old, other) => (other === axis ? steps * KEY_STEP : old)));
     });
     element("stop").addEventListener("click", () => this.setAll([0, 0, 0]));
     element("own").addEventListener("click", () => {

@@ -61,6 +61,12 @@ class Terrain {
   }
 }
 
+/** Whether the processor draws. */
+function isSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const names = context.getExtension("WEBGL_debug_renderer_info");
+  return names !== null && /swiftshader|llvmpipe|software/i.test(String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)));
+}
+
 export class Surroundings {
   private readonly key = new THREE.DirectionalLight(0xfff4e6);
   private readonly hemisphere = new THREE.HemisphereLight(0xffffff, 0x8a8f98);
@@ -74,13 +80,18 @@ export class Surroundings {
   );
   private readonly dark = matchMedia("(prefers-color-scheme: dark)");
   private terrain: Terrain | undefined;
+  /** Light of a room; `null` where it would take long. */
+  private room: THREE.Texture | null = null;
 
   constructor(private readonly scene: THREE.Scene, renderer: THREE.WebGLRenderer) {
-    const generator = new THREE.PMREMGenerator(renderer);
-    scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+    // It takes seconds on a processor, and nothing is seen before.
+    if (!isSoftware(renderer.getContext())) {
+      const generator = new THREE.PMREMGenerator(renderer);
+      this.room = scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+      generator.dispose();
+    }
     scene.environmentRotation.set(Math.PI / 2, 0, 0);
     scene.environmentIntensity = ENVIRONMENT;
-    generator.dispose();
     const { shadow } = this.key;
     this.key.castShadow = this.plane.receiveShadow = true;
     shadow.mapSize.set(SHADOW_PIXELS, SHADOW_PIXELS);
@@ -90,13 +101,14 @@ export class Surroundings {
     scene.add(this.key, this.key.target, this.hemisphere, this.plane, this.dome);
     this.dark.addEventListener("change", () => this.paint());
     this.paint();
+    this.simplify(this.room === null);
   }
 
   /** Draws plainly, for machines without a GPU: no shadow, and no light from the room. */
-  simplify(): void {
-    this.key.castShadow = false;
-    this.scene.environment = null;
-    this.hemisphere.intensity = 2;
+  simplify(isPlain: boolean): void {
+    this.key.castShadow = !isPlain;
+    this.scene.environment = isPlain ? null : this.room;
+    this.hemisphere.intensity = this.scene.environment === null ? 2 : (this.dark.matches ? DARK : LIGHT).hemisphere;
   }
 
   private paint(): void {

@@ -17,6 +17,10 @@ const SLOW_FRAME_S = 0.028;
 /** After several in a row that are slower than this, the picture is plain. */
 const VERY_SLOW_FRAME_S = 0.15;
 const VERY_SLOW_FRAMES = 3;
+/** Frames this quick for so long allow a better picture, a few times: what is too much for a machine stays so. */
+const QUICK_FRAME_S = 0.02;
+const QUICK_S = 3;
+const IMPROVEMENTS_MAX = 2;
 /** Farther moves of the robots in one frame are a reset. */
 const JUMP_M = 1;
 const FOLLOW_S = 0.12;
@@ -67,7 +71,12 @@ export class View {
   private framed = false;
   private frame_s = 0.016;
   private verySlow = 0;
-  private ratio = Math.min(devicePixelRatio, PIXEL_RATIO_MAX);
+  private readonly best = Math.min(devicePixelRatio, PIXEL_RATIO_MAX);
+  private ratio = this.best;
+  /** Pixel ratio, width and height of the buffers. */
+  private size = "";
+  private quick_s = 0;
+  private improvements = 0;
   private covered: [left: number, right: number, top: number, bottom: number] = [0, 0, 0, 0];
   /** Width through height of what panels leave free. */
   private aspect = 1;
@@ -94,10 +103,18 @@ export class View {
     const [left, right, top, bottom] = covered;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(this.ratio);
-    this.renderer.setSize(width, height, false);
+    // Each allocates the buffers anew.
+    const size = `${this.ratio} ${width} ${height}`;
+    if (size !== this.size) {
+      this.renderer.setPixelRatio(this.ratio);
+      this.renderer.setSize(width, height, false);
+      this.size = size;
+    }
+    const before = this.aspect;
     const free = Math.max(0.15 * height, height - top - bottom);
     this.aspect = Math.max(0.2 * width, width - left - right) / free;
+    // Robots beside each other would be cut off.
+    if (this.robots.length > 1 && this.aspect < 0.9 * before) this.framed = false;
     this.camera.aspect = width / height;
     this.camera.zoom = free / height;
     this.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
@@ -190,10 +207,18 @@ export class View {
   private adapt(wall_s: number): void {
     this.verySlow = wall_s > VERY_SLOW_FRAME_S ? this.verySlow + 1 : 0;
     if (this.verySlow >= VERY_SLOW_FRAMES) {
-      this.surroundings.simplify();
+      this.surroundings.simplify(true);
       this.lower(PIXEL_RATIO_LEAST, 0.5);
     }
     if (wall_s > 1) return;
+    // A pause, as while shaders are compiled, must not leave a poor picture for ever.
+    this.quick_s = wall_s < QUICK_FRAME_S ? this.quick_s + wall_s : 0;
+    if (this.quick_s > QUICK_S && this.ratio < this.best && this.improvements < IMPROVEMENTS_MAX) {
+      [this.quick_s, this.ratio] = [0, this.best];
+      this.improvements += 1;
+      this.surroundings.simplify(false);
+      this.cover(...this.covered);
+    }
     this.frame_s += 0.03 * (wall_s - this.frame_s);
     if (this.frame_s > SLOW_FRAME_S) this.lower(PIXEL_RATIO_MIN, 0.75);
   }
@@ -208,7 +233,13 @@ export class View {
   /** Returns the picture of this moment as PNG. */
   picture(timeline: Timeline): Promise<Blob | null> {
     // The buffer is valid only until the browser shows it, so it is drawn and read at once.
+    const { ratio } = this;
+    this.ratio = this.best;
+    this.cover(...this.covered);
     this.draw(timeline, 0);
-    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+    const picture = new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, "image/png"));
+    this.ratio = ratio;
+    this.cover(...this.covered);
+    return picture;
   }
 }

@@ -31,7 +31,7 @@ pub struct WatchArgs {
     #[command(flatten)]
     reach: ReachArgs,
     /// Further policies, which move beside the first one under the same commands; of more than four only the curves.
-    #[arg(value_name = "RUN", conflicts_with_all = ["live", "connect"])]
+    #[arg(value_name = "RUN", index = 2, conflicts_with_all = ["live", "connect"])]
     more: Vec<String>,
     /// Watch an actor of a run while it trains. RUN is its folder on this machine; on other machines pass --connect.
     #[arg(long, conflicts_with = "steer")]

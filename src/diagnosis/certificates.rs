@@ -209,6 +209,11 @@ pub fn hosts_in(file: &Path) -> Option<Vec<String>> {
     X509Certificate::from_der(&der).ok().map(|(_, certificate)| hosts(&certificate))
 }
 
+/// Returns whether a host of a certificate is not just another word for the machine itself.
+pub fn is_far(host: &str) -> bool {
+    !["localhost", "127.0.0.1", "::1"].contains(&host)
+}
+
 /// Returns the hosts that a certificate names.
 fn hosts(certificate: &X509Certificate) -> Vec<String> {
     let Ok(Some(names)) = certificate.subject_alternative_name() else { return Vec::new() };

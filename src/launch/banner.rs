@@ -61,6 +61,7 @@ pub fn print_start(
             let processes = if actors == 1 { "1 process".to_string() } else { format!("{actors} processes") };
             let hint = if config.is_external() { String::new() } else { idle_lanes(config, actors) };
             say(&format!("  actors    {processes} beside this one{hint}"));
+            setup.choice.iter().for_each(|choice| say(&format!("  chose     {choice}")));
         }
         None => {
             say(&format!("  actors    none yet; start some by: {}", actor_command(setup, &endpoints[0], credentials)))
@@ -162,7 +163,7 @@ fn connect_flags(endpoint: &str, credentials: Option<&Credentials>) -> String {
     let mut host = treadmill_runtime::machine::host_name();
     let known = credentials.map(hosts).unwrap_or_default();
     if !known.is_empty() && !known.contains(&host) {
-        host.clone_from(known.iter().find(|name| is_far(name)).unwrap_or(&known[0]));
+        host.clone_from(known.iter().find(|name| certificates::is_far(name)).unwrap_or(&known[0]));
     }
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
@@ -177,15 +178,10 @@ fn hosts(credentials: &Credentials) -> Vec<String> {
     certificates::hosts_in(&credentials.files()[0]).unwrap_or_default()
 }
 
-/// Returns whether a host of a certificate is not just another word for the machine itself.
-fn is_far(host: &str) -> bool {
-    !["localhost", "127.0.0.1", "::1"].contains(&host)
-}
-
 /// Returns whether a process listens for other machines, with a certificate that none of them accepts.
 fn only_names_itself(credentials: &Credentials, endpoints: &[String]) -> bool {
     let is_open = |endpoint: &String| endpoint.contains("/0.0.0.0:") || endpoint.contains("/[::]:");
-    endpoints.iter().any(is_open) && !hosts(credentials).iter().any(|host| is_far(host))
+    endpoints.iter().any(is_open) && !hosts(credentials).iter().any(|host| certificates::is_far(host))
 }
 
 /// Returns the flag that names the certificates of a role, after a space. A folder that was copied may have only the

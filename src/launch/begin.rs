@@ -9,6 +9,7 @@ use treadmill_runtime::{machine, run_folder::RunFolder, run_lock::RunLock, seeds
 
 use crate::launch::{
     automatic,
+    choice::choose_environments,
     exit_code::Usage,
     model,
     prepared::{
@@ -40,7 +41,10 @@ pub fn begin(
     match fork {
         Some(fork) => branch_off(launcher, new, any, config, fork),
         None if config.is_external() => begin_external(new, any, config, init_from),
-        None => begin_built_in(launcher, new, any, config, init_from),
+        None => {
+            let is_given = new.gives("rollout.envs") || changes.iter().any(|(key, _)| *key == "rollout.envs");
+            begin_built_in(launcher, new, any, (config, is_given), init_from)
+        }
     }
 }
 
@@ -110,11 +114,12 @@ fn add_size(
     Ok(())
 }
 
+/// Begins a run of a task of this program. `has_envs` is whether the number of environments is given.
 fn begin_built_in(
     launcher: Launcher<'_>,
     new: &NewRunArgs,
     any: &AnyRunArgs,
-    mut config: Config,
+    (mut config, has_envs): (Config, bool),
     init_from: Option<InitFrom>,
 ) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
@@ -131,7 +136,11 @@ fn begin_built_in(
     model::warn_of_unreachable(&environment);
     let networks = model::networks(&config, &environment)?;
     settings::choose(&mut config.ppo, &networks);
+    let mut choice = None;
     if launcher.command == RunCommand::Train {
+        if !has_envs {
+            choice = choose_environments(&mut config, launcher.tasks, &text, &networks, &device);
+        }
         check_fragments(&config, environment.observation_size(), environment.action_size())?;
     }
     let fresh = TrainingState::fresh("", &config, &text, networks, seeds::unique());
@@ -140,7 +149,7 @@ fn begin_built_in(
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let setup = RunSetup { config, folder, device, run, origin, store: None };
+    let setup = RunSetup { config, folder, device, run, origin, store: None, choice };
     Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 
@@ -158,7 +167,7 @@ fn begin_external(
     }
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
-    let mut setup = RunSetup { config, folder, device, run, origin: None, store: None };
+    let mut setup = RunSetup { config, folder, device, run, origin: None, store: None, choice: None };
     let state = match known {
         Some(task) => {
             let fresh = setup.set_task(task, init_from.as_ref()).inspect_err(|_| setup.folder.discard())?;
@@ -204,7 +213,7 @@ fn branch_off(
     let (folder, lock) = create_folder(new, any, &prefix)?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let setup = RunSetup { config, folder, device, run, origin, store: None };
+    let setup = RunSetup { config, folder, device, run, origin, store: None, choice: None };
     Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 

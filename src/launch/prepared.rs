@@ -85,6 +85,8 @@ pub struct RunSetup {
     pub origin: Option<String>,
     /// URL of the store of its state, unless that is in its folder.
     pub store: Option<String>,
+    /// What was chosen for this machine, and why.
+    pub choice: Option<String>,
 }
 
 impl RunSetup {

@@ -97,7 +97,7 @@ pub fn go_on(
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
     let (run, store) = (state.run.clone(), any.store.clone());
-    let setup = RunSetup { config, folder, device, run, origin: None, store };
+    let setup = RunSetup { config, folder, device, run, origin: None, store, choice: None };
     let state = FirstState::Known(Box::new(state));
     Ok(Start::Ready(Box::new(Prepared { setup, state }), lock))
 }

@@ -28,8 +28,9 @@ use tokio::{
 };
 use tokio_rustls::{TlsAcceptor, server::TlsStream};
 use treadmill_bus::{Credentials, Role};
+use treadmill_runtime::machine;
 
-use crate::launch::exit_code::Usage;
+use crate::{diagnosis::certificates, launch::exit_code::Usage};
 
 /// Longest handshake, and most at a time.
 const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
@@ -44,8 +45,8 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(200);
 pub enum Door {
     /// Browsers of this machine, or those that a tunnel leads to it.
     Loopback,
-    /// Browsers with this token in the address, over TLS.
-    Token(Arc<str>, Arc<ServerConfig>),
+    /// Browsers with this token in the address, over TLS. The certificate names these hosts.
+    Token(Arc<str>, Arc<ServerConfig>, Arc<[String]>),
 }
 
 impl Door {
@@ -72,7 +73,24 @@ impl Door {
         SysRng.try_fill_bytes(&mut bytes).context("the system gives no random numbers")?;
         let mut token = String::new();
         bytes.iter().for_each(|byte| write!(token, "{byte:02x}").expect("writing to a string does not fail"));
-        Ok(Self::Token(token.into(), Arc::new(config)))
+        let hosts = certificates::hosts_in(&certificate).unwrap_or_default();
+        Ok(Self::Token(token.into(), Arc::new(config), hosts.into()))
+    }
+
+    /// Returns the host by which other machines open the page of one that listens on all addresses: this machine's name if the
+    /// certificate has it, else another one that it has. Without any, warns.
+    #[must_use]
+    pub fn host(&self) -> String {
+        let own = machine::host_name();
+        let Self::Token(_, _, hosts) = self else { return own };
+        let found =
+            hosts.iter().find(|host| **host == own).or_else(|| hosts.iter().find(|host| certificates::is_far(host)));
+        if found.is_none() {
+            tracing::warn!(
+                "the certificate names only this machine, so browsers elsewhere refuse the page: `treadmill certs DIR --host {own}`"
+            );
+        }
+        found.unwrap_or(&own).clone()
     }
 
     /// Returns the address of the page at a host with a port.
@@ -80,7 +98,7 @@ impl Door {
     pub fn link(&self, host: &str) -> String {
         match self {
             Self::Loopback => format!("http://{host}/"),
-            Self::Token(token, _) => format!("https://{host}/?token={token}"),
+            Self::Token(token, ..) => format!("https://{host}/?token={token}"),
         }
     }
 
@@ -102,7 +120,7 @@ impl Door {
                     && (!is_socket || has_origin("http"))
             }
             // The files hold no secrets.
-            Self::Token(token, _) => {
+            Self::Token(token, ..) => {
                 let has_token =
                     query.split('&').any(|part| part.strip_prefix("token=").is_some_and(|given| is_same(given, token)));
                 !is_socket && path != "/" || has_token && (!is_socket || has_origin("https"))
@@ -261,7 +279,16 @@ mod tests {
         let pair = rcgen::generate_simple_self_signed(["box".to_string()]).unwrap();
         let key = PrivateKeyDer::try_from(pair.signing_key.serialize_der()).unwrap();
         let config = config.with_no_client_auth().with_single_cert(vec![pair.cert.der().clone()], key).unwrap();
-        let door = Door::Token("0123abcd".into(), Arc::new(config));
+        let config = Arc::new(config);
+        let door = |hosts: &[&str]| {
+            let hosts = hosts.iter().map(|host| host.to_string()).collect();
+            Door::Token("0123abcd".into(), config.clone(), hosts)
+        };
+        let own_name = machine::host_name();
+        assert_eq!(door(&["localhost", "::1", "box", "other"]).host(), "box");
+        assert_eq!(door(&["box", &own_name]).host(), own_name);
+        assert_eq!(door(&["localhost"]).host(), own_name);
+        let door = door(&["box"]);
         let own = headers("box:7448", Some("https://box:7448"));
         for (path, query, is_admitted) in [
             ("/", "token=0123abcd", true),

@@ -7,7 +7,6 @@ use std::{
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_runtime::machine;
 
 use super::{Served, doors::Door, hub::Hub};
 use crate::launch::{exit_code::Usage, restart};
@@ -70,7 +69,7 @@ impl ServeArgs {
         let listener = self.listen()?;
         let address = listener.local_addr()?;
         let host = match address.ip().is_unspecified() {
-            true => format!("{}:{}", machine::host_name(), address.port()),
+            true => format!("{}:{}", door.host(), address.port()),
             false => address.to_string(),
         };
         listener.set_nonblocking(true)?;

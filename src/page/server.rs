@@ -8,7 +8,7 @@ use axum::{
     body::Body,
     extract::{
         Request, State, WebSocketUpgrade,
-        ws::{Message, WebSocket},
+        ws::{CloseFrame, Message, WebSocket, close_code},
     },
     http::{
         StatusCode,
@@ -39,6 +39,8 @@ const FILES: [(&str, &str, &[u8]); 4] = [
 ];
 /// Longest time that one message may take, as the meshes of a robot through a slow tunnel.
 const SEND_TIMEOUT: Duration = Duration::from_secs(120);
+/// Longest time that the end of the program waits for a page.
+const CLOSE_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// Serves the page until the stop.
 ///
@@ -55,7 +57,7 @@ pub async fn serve(listener: TcpListener, door: Door, hub: Hub, shutdown: Shutdo
     let stopped = async move { shutdown.wait().await };
     let served = match door {
         Door::Loopback => axum::serve(BoundedListener::new(listener), router).with_graceful_shutdown(stopped).await,
-        Door::Token(_, config) => {
+        Door::Token(_, config, _) => {
             let listener = BoundedListener::new(TlsListener::new(listener, config)?);
             axum::serve(listener, router).with_graceful_shutdown(stopped).await
         }
@@ -85,26 +87,30 @@ async fn guard(State(door): State<Door>, request: Request, next: Next) -> Respon
 
 async fn open_socket(State((hub, shutdown)): State<(Hub, Shutdown)>, upgrade: WebSocketUpgrade) -> Response<Body> {
     let upgrade = upgrade.max_message_size(FROM_PAGE_BYTES_MAX).max_frame_size(FROM_PAGE_BYTES_MAX);
-    upgrade.on_upgrade(async move |socket| {
+    upgrade.on_upgrade(async move |mut socket| {
         tokio::select! {
-            () = converse(socket, hub) => {}
+            () = converse(&mut socket, hub) => return,
             () = shutdown.wait() => {}
         }
+        // Otherwise the page takes it for a fault. It connects again if the run is resumed here.
+        let reason = "The program has ended; `treadmill watch RUN` shows a run again".into();
+        let close = Message::Close(Some(CloseFrame { code: close_code::AWAY, reason }));
+        let _ = tokio::time::timeout(CLOSE_TIMEOUT, socket.send(close)).await;
     })
 }
 
 /// Sends what is shown and takes what is asked, until the page closes or stops to listen.
-async fn converse(mut socket: WebSocket, hub: Hub) {
+async fn converse(socket: &mut WebSocket, hub: Hub) {
     let Some(seat) = hub.seat() else {
         let full = ToPageKind::Notice(format!("{PAGES_MAX} pages are open already; close one"));
-        send(&mut socket, full.to_bytes().into()).await;
+        send(socket, full.to_bytes().into()).await;
         return;
     };
     let PageView { mut scene, mut frames, mut news, curves, notice, mut generation, mut steerer } = hub.view();
     steerer.mark_changed();
     let newest = scene.borrow_and_update().clone();
     for message in [newest, curves, notice] {
-        if !message.is_empty() && !send(&mut socket, message).await {
+        if !message.is_empty() && !send(socket, message).await {
             return;
         }
     }
@@ -151,7 +157,7 @@ async fn converse(mut socket: WebSocket, hub: Hub) {
                 _ => return,
             },
         };
-        if !send(&mut socket, message).await {
+        if !send(socket, message).await {
             return;
         }
     }

@@ -103,10 +103,13 @@ fn the_imitated_motion_is_a_ghost_beside_the_robot() {
 fn policies_stand_side_by_side_on_a_phone_and_read_only_pages_cannot_steer() {
     let folder = tempfile::tempdir().unwrap();
     let Some(mut browser) = Browser::start() else { return };
-    let (watching, address) = watch(folder.path(), &[WALK, WALK, "--seed", "3"]);
+    let (watching, address) = watch(folder.path(), &[G1, WALK, "--seed", "3"]);
     let page = browser.open(&address, NARROW);
     browser.wait_for(&page, "window.treadmill?.frames() > 10 && window.treadmill.robots() === 2");
     assert_eq!(browser.value(&page, "window.treadmill.steers()"), false);
+    let title = browser.value(&page, "document.title");
+    let title = title.as_str().unwrap();
+    assert!(title.find("g1") < title.find("policy"), "the first one named is the first one shown: {title}");
     let overflows = browser.value(&page, "document.documentElement.scrollWidth > window.innerWidth");
     assert_eq!(overflows, false, "the page is wider than a phone");
     browser.screenshot(&page).keep("phone.png");
@@ -137,7 +140,9 @@ fn a_training_run_is_shown_and_found_again_after_its_learner_was_killed() {
     let frames = browser.value(&page, "window.treadmill.frames()");
     let resumed = start(folder.path(), &[&["train", "--resume", "run"], &page_at[..]].concat());
     browser.wait_for(&page, &format!("window.treadmill.connected() && window.treadmill.frames() > {frames} + 10"));
+    assert_eq!(browser.value(&page, "document.getElementById('banner').hidden"), true);
     stop(resumed);
+    browser.wait_for(&page, "document.getElementById('banner').textContent.includes('has ended')");
 }
 
 #[test]

@@ -83,8 +83,23 @@ KERNEL transpose(float *f, u32 *u, double *d, u32 at) {
         f[(size_t)job[1] + i % columns * rows + i / columns] = f[(size_t)job[0] + i];
 }
 
-// Matrix products: for each, slices, a, its strides by row and by inner index, b, its stride by inner index, c, its stride by
-// row, rows, columns, inner size, inner size of a slice, stride of c by slice. Grid z: slices of all of them.
+// Adds products of a tile: `a` has the tile's rows at a stride and inner indices at another, one of which is 1, so that the
+// compiler knows the distances; `b` has the tile's columns at distances of 32.
+#define ADD_PRODUCTS(row_stride, inner_stride)                                        \
+    _Pragma("unroll 4") for (u32 k = 0; k < count; k++) {                             \
+        float right[TILE_COLUMNS];                                                    \
+        _Pragma("unroll") for (int c = 0; c < TILE_COLUMNS; c++) right[c] = b[32 * c]; \
+        _Pragma("unroll") for (int r = 0; r < TILE_ROWS; r++) {                       \
+            float left = a[r * (size_t)(row_stride)];                                 \
+            _Pragma("unroll") for (int c = 0; c < TILE_COLUMNS; c++) sums[r][c] += left * right[c]; \
+        }                                                                             \
+        a += (inner_stride);                                                          \
+        b += b_step;                                                                  \
+    }
+
+// Matrix products: for each, slices, a, its strides by row and by inner index (one of them is 1), b, its stride by inner index,
+// c, its stride by row, rows, columns, inner size, inner size of a slice, stride of c by slice. Grid z: slices of all of them.
+// A tile at an edge reads past its matrix, inside `f`, and does not write what it finds there.
 KERNEL product(float *f, u32 *u, double *d, u32 at) {
     const u32 *job = u + at;
     u32 slice = blockIdx.z;
@@ -98,36 +113,14 @@ KERNEL product(float *f, u32 *u, double *d, u32 at) {
     if (warp >= across * down)
         return;
     u32 row = warp / across * TILE_ROWS, column = warp % across * (32 * TILE_COLUMNS) + threadIdx.x % 32;
-    u32 begin = slice * job[11], end = smaller(begin + job[11], job[10]);
-    u32 a_step = job[3], b_step = job[5];
-    const float *a[TILE_ROWS], *b[TILE_COLUMNS];
-    float sums[TILE_ROWS][TILE_COLUMNS];
-#pragma unroll
-    for (int r = 0; r < TILE_ROWS; r++) {
-        a[r] = f + job[1] + (size_t)smaller(row + r, rows - 1) * job[2] + (size_t)begin * a_step;
-#pragma unroll
-        for (int c = 0; c < TILE_COLUMNS; c++)
-            sums[r][c] = 0.0f;
-    }
-#pragma unroll
-    for (int c = 0; c < TILE_COLUMNS; c++)
-        b[c] = f + job[4] + (size_t)begin * b_step + smaller(column + 32 * c, columns - 1);
-#pragma unroll 4
-    for (u32 k = begin; k < end; k++) {
-        float right[TILE_COLUMNS];
-#pragma unroll
-        for (int c = 0; c < TILE_COLUMNS; c++) {
-            right[c] = *b[c];
-            b[c] += b_step;
-        }
-#pragma unroll
-        for (int r = 0; r < TILE_ROWS; r++) {
-            float left = *a[r];
-            a[r] += a_step;
-#pragma unroll
-            for (int c = 0; c < TILE_COLUMNS; c++)
-                sums[r][c] += left * right[c];
-        }
+    u32 begin = slice * job[11], count = smaller(begin + job[11], job[10]) - begin, b_step = job[5];
+    const float *a = f + job[1] + (size_t)row * job[2] + (size_t)begin * job[3];
+    const float *b = f + job[4] + (size_t)begin * b_step + column;
+    float sums[TILE_ROWS][TILE_COLUMNS] = {{0.0f}};
+    if (job[3] == 1) {
+        ADD_PRODUCTS(job[2], 1)
+    } else {
+        ADD_PRODUCTS(1, job[3])
     }
     float *target = f + job[6] + (size_t)slice * job[12];
 #pragma unroll

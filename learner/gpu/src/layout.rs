@@ -7,6 +7,8 @@ use treadmill_policy::{NetworkLayer, NetworkStructure};
 /// Threads that sum squares and terms, and sums of each, as in `kernels.cu`.
 pub(crate) const SUMMERS: usize = 1024;
 pub(crate) const SUMS: usize = 5;
+/// Rows and columns of a tile of a product, as in `kernels.cu`.
+pub(crate) const TILE: [usize; 2] = [8, 64];
 /// Most partial gradients that a gradient is the sum of.
 const SLICES_MAX: usize = 32;
 /// Fewest rows of a partial gradient.
@@ -93,6 +95,9 @@ pub(crate) struct MemoryLayout {
     pub(crate) by_means: usize,
     pub(crate) by_log_std: usize,
     pub(crate) terms: usize,
+    /// Room that tiles at the edge of a matrix may read.
+    #[allow(dead_code, reason = "nothing is written there")]
+    pub(crate) end: usize,
     /// Length of the array of numbers.
     pub(crate) numbers: usize,
     /// Offsets into the array of integers: order of the rows, rows of the divergence, tables, fields of launches.
@@ -142,6 +147,7 @@ impl MemoryLayout {
         controls.take(CONTROLS);
         let (sums, folded) = (controls.take(SUMS * SUMMERS), controls.take(SUMS * 32));
         let divergences = controls.take(room.measured);
+        let widest = structure.actor.iter().chain(&structure.critic).map(|layer| layer.output).max().unwrap_or(0);
         Self {
             state: state..state + 3 * parameters,
             backup: backup..backup + 3 * parameters,
@@ -160,6 +166,7 @@ impl MemoryLayout {
             by_means: of(rows, actions),
             by_log_std: of(rows, actions),
             terms: of(rows, SUMS - 1),
+            end: of(TILE[0], widest.max(room.observation) + TILE[1]),
             actor,
             critic,
             numbers: numbers.0,

@@ -2,7 +2,7 @@
 
 use treadmill_policy::{NetworkLayer, NetworkStructure};
 
-use crate::layout::{LayerRows, MemoryLayout, SUMMERS, SUMS, slices};
+use crate::layout::{LayerRows, MemoryLayout, SUMMERS, SUMS, TILE, slices};
 
 /// A kernel's name in `kernels.cu`.
 pub(crate) type Kernel = &'static str;
@@ -24,8 +24,7 @@ pub(crate) const KERNELS: [Kernel; 13] = [
     "divergence",
 ];
 
-/// Rows and columns of a tile of a product, and tiles per block of threads, as in `kernels.cu`.
-const TILE: [usize; 2] = [8, 64];
+/// Tiles of a product per block of threads.
 const TILES_PER_BLOCK: usize = 2;
 /// Threads of a block, and of one whose threads do much each.
 const BLOCK: usize = 128;
