@@ -1,7 +1,7 @@
 //! Number of environments of a new run of `train`, chosen by measuring this machine.
 //!
-//! With more environments a round has fewer control steps one after the other, but a goal takes more env steps. On a machine of
-//! many cores, the first can save more time than the second costs.
+//! With more environments a round has fewer control steps one after the other, but a goal takes more env steps. On a machine
+//! of many cores, the first can save more time than the second costs.
 
 use std::time::{Duration, Instant};
 
@@ -10,7 +10,7 @@ use treadmill_config::{Config, RolloutConfig};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::intake::HorizonRule;
 use treadmill_policy::Networks;
-use treadmill_ppo::{PpoOptions, device::Device};
+use treadmill_ppo::{PpoOptions, device::Device, settings::UpdateSize};
 use treadmill_runtime::machine;
 
 use crate::{commands::bench::update, launch::prepared::actor_processes};
@@ -19,13 +19,15 @@ use crate::{commands::bench::update, launch::prepared::actor_processes};
 const CANDIDATES: [u32; 3] = [64, 256, 1024];
 /// Cores from which on it is worth a measurement: with fewer, rounds take longer in proportion to the environments.
 const CORES_MIN: usize = 4;
-/// Env steps to a goal grow with this power of the environments: 256 need 1.7 times those of 64, 1,024 need 2.5 times as many
-/// (`experiments/learning/environments.csv`).
+/// Env steps to a goal grow with this power of the environments: 256 need 1.7 times those of 64, 1,024 need 2.5 times as
+/// many (`experiments/learning/environments.csv`).
 const STEPS_POWER: f64 = 0.35;
 /// Share of the time that another number than the usual one must save.
 const GAIN_MIN: f64 = 0.1;
 /// Duration of a round beside simulation and update: checkpoint, announcement, receipts.
 const SERIAL_S: f64 = 0.004;
+/// Most environments that are measured, which take time to build. More take longer in proportion.
+const SHARE_MAX: u32 = 64;
 /// Longest measurement of a candidate's control steps.
 const MEASURE_MAX: Duration = Duration::from_millis(50);
 
@@ -40,8 +42,8 @@ struct Speeds {
     actors_per_core: f64,
 }
 
-/// Measures the machine and sets the number of environments. Returns why, in one line; `None` if it is not for this machine or
-/// run to choose, or nothing can be measured.
+/// Measures the machine and sets the number of environments. Returns why, in one line; `None` if it is not for this machine
+/// or run to choose, or nothing can be measured.
 pub fn choose_environments(
     config: &mut Config,
     tasks: &TaskRegistry,
@@ -57,15 +59,16 @@ pub fn choose_environments(
         return None;
     }
     let speeds = measure(config, tasks, model_xml, networks, device, cores)?;
+    let size = UpdateSize::of(&config.ppo);
     let rule = HorizonRule::new(config, networks.shape().observation, networks.shape().action);
-    let (index, saved) = best(&speeds, &rule, config.ppo.epochs);
+    let (index, saved) = best(&speeds, &rule, size.epochs);
     config.rollout.envs = CANDIDATES[index];
     let usual = CANDIDATES[0];
     let why = match index {
         0 => "more would not save a tenth of the time".to_string(),
         _ => format!("about {:.0} % less time to a goal than with {usual}, which --envs {usual} keeps", 100.0 * saved),
     };
-    let (step_ms, pass_ms) = (1e3 * speeds.step_s[index], 1e3 * speeds.row_s * config.ppo.batch as f64);
+    let (step_ms, pass_ms) = (1e3 * speeds.step_s[index], 1e3 * speeds.row_s * size.transitions as f64);
     Some(format!(
         "{} environments for {cores} cores: {why} (a control step takes {step_ms:.2} ms, a pass over a batch {pass_ms:.1} ms)",
         CANDIDATES[index]
@@ -100,13 +103,18 @@ fn measure(
     cores: usize,
 ) -> Option<Speeds> {
     let mut step_s = [0.0; CANDIDATES.len()];
+    let mut known = (0, 0.0);
     for (duration_s, envs) in step_s.iter_mut().zip(CANDIDATES) {
         let share = envs.div_ceil(actor_processes(config.rollout.actors, envs));
-        *duration_s = control_step_s(config, tasks, model_xml, share as usize)?;
+        let few = share.min(SHARE_MAX);
+        if known.0 != few {
+            known = (few, control_step_s(config, tasks, model_xml, few as usize)?);
+        }
+        *duration_s = known.1 * f64::from(share) / f64::from(few);
     }
     let threads = machine::threads(config.learner.threads as usize);
     let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(threads).ok()? };
-    let minibatch = config.ppo.minibatch_rows() as u32;
+    let minibatch = UpdateSize::of(&config.ppo).minibatch;
     let (_, samples_per_s, _) = update::measure(options, networks.clone(), minibatch, 2).ok()?;
     let actors = f64::from(actor_processes(config.rollout.actors, RolloutConfig::default().envs));
     Some(Speeds { step_s, row_s: 1.0 / samples_per_s, actors_per_core: (actors / cores as f64).max(1.0) })
@@ -130,21 +138,22 @@ fn control_step_s(config: &Config, tasks: &TaskRegistry, model_xml: &str, envs: 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use treadmill_config::ConfigSource;
     use treadmill_humanoid::HUMANOID_XML;
     use treadmill_policy::{NetworkShape, PolicyMirror};
 
     fn rule() -> HorizonRule {
-        let mut config = Config::default();
-        config.ppo.batch = 2048;
-        HorizonRule::new(&config, 103, 29)
+        let mut source = ConfigSource::default();
+        source.set("ppo.batch=2048").unwrap();
+        HorizonRule::new(&source.build().unwrap(), 103, 29)
     }
 
     /// Speeds of a machine whose actors simulate 16 robots in the time of one, and whose threads share the update.
     fn speeds(cores: usize, pass_s: f64, row_s: f64, has_gpu: bool) -> Speeds {
         let share = |envs: u32| (envs as usize).div_ceil(cores.min(envs as usize));
         let step_s = CANDIDATES.map(|envs| pass_s * share(envs).div_ceil(16) as f64);
-        // Minibatches of 512 have work for 16 threads at most.
-        let row_s = if has_gpu { 3e-7 } else { row_s / cores.min(16) as f64 };
+        // Small minibatches gain a factor of five at most from more threads.
+        let row_s = if has_gpu { 3e-7 } else { row_s / cores.min(5) as f64 };
         Speeds { step_s, row_s, actors_per_core: 1.0 }
     }
 

@@ -3,9 +3,9 @@
 //! # Layout
 //! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `prepared` (that run), `begin` (a
 //!   new run), `warm_start` (from another run's policy or state), `resumption` (loads a saved run and compares the
-//!   flags with it), `model` (the robot), `automatic` (settings that follow from its size), `choice` (settings that follow from
-//!   the machine), `external_task` (waits for
-//!   the task that the first actor registers), `banner` (text printed before and after a run).
+//!   flags with it), `model` (the robot), `automatic` (settings that follow from its size), `choice` (those that follow
+//!   from the machine), `external_task` (waits for the task that the first actor registers), `banner` (text printed
+//!   before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `films` (of the newest policy), `durability` (a host whose
 //!   state is in a store), `standby` (waits until it is time to lead), `supervisor` (restarts actor processes),
 //!   `bus_client` (flags and session of an actor or evaluator), `router_session` (session of a learner or router),

@@ -77,8 +77,8 @@ impl Door {
         Ok(Self::Token(token.into(), Arc::new(config), hosts.into()))
     }
 
-    /// Returns the host by which other machines open the page of one that listens on all addresses: this machine's name if the
-    /// certificate has it, else another one that it has. Without any, warns.
+    /// Returns the host by which other machines open the page of one that listens on all addresses: this machine's name if
+    /// the certificate has it, else another one that it has. Without any, warns.
     #[must_use]
     pub fn host(&self) -> String {
         let own = machine::host_name();

@@ -13,7 +13,7 @@
 //! - `loss_gradient`: the same loss and its gradient on slices.
 //! - `slice_gradient`: gather, forward, loss, backward on slices.
 //! - `tensor_gradient`: the same in Candle's operations: `--device candle`, and the reference of tests.
-//! - [`device`]: processor, GPU, or Candle.
+//! - [`device`]: processor, GPU, or Candle; `options`: it, threads, chunks.
 //! - `passes`, `gpu_passes`: passes over a batch on the processor and on a GPU.
 //! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old state when one fails.
 //! - `update_stats`: what an update reports, or why it was undone.
@@ -34,6 +34,7 @@ pub mod loss;
 mod loss_gradient;
 pub mod measures;
 pub mod optimiser;
+mod options;
 mod passes;
 pub mod plausibility;
 pub mod settings;
@@ -49,9 +50,10 @@ pub use batch_building::{AcceptedFragment, BuiltBatch, RejectedFragment, build_b
 pub use improvement::{Improvement, PreparedBatch};
 pub use load_adaptation::LoadAdaptation;
 pub use measures::{adapt_learning_rate, explained_variance};
+pub use options::PpoOptions;
 pub use plausibility::Implausible;
 pub use settings::BatchSize;
 pub use state::PpoState;
 pub use trained_policy::TrainedPolicy;
-pub use update::{Ppo, PpoOptions};
+pub use update::Ppo;
 pub use update_stats::{UpdateError, UpdateStats};

@@ -13,10 +13,10 @@ use crate::{
     loss_gradient::LossSums,
     measures::PolicyShift,
     optimiser::{OptimiserState, clip_factor, global_norm},
+    options::PpoOptions,
     slice_gradient::SliceGradient,
     state::PpoState,
     tensor_gradient::TensorGradient,
-    update::PpoOptions,
     update_stats::{UpdateError, UpdateStats, check_finite},
 };
 

@@ -25,6 +25,25 @@ pub fn choose(config: &mut PpoConfig, networks: &Networks) {
     config.choose_batch(networks.mirror().is_some());
 }
 
+/// Size of an update.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UpdateSize {
+    /// Fewest transitions of its batch.
+    pub transitions: usize,
+    /// Transitions of a gradient step.
+    pub minibatch: u32,
+    /// Passes over the batch.
+    pub epochs: u32,
+}
+
+impl UpdateSize {
+    /// Returns the configured size.
+    pub fn of(config: &PpoConfig) -> Self {
+        let minibatch = config.minibatch_rows() as u32;
+        Self { transitions: config.batch as usize, minibatch, epochs: config.epochs }
+    }
+}
+
 /// Returns the most rows of a chunk with which so many threads of an update find work: each network has a task per chunk.
 pub fn chunk_rows(config: &PpoConfig, threads: usize) -> u32 {
     let has_work = |rows: &u32| 2 * config.minibatch_rows().div_ceil(*rows as usize) >= threads;

@@ -1,17 +1,15 @@
 //! One update: several epochs of gradient steps over one batch. If a number is not finite, the whole update is undone.
 
-use std::sync::Arc;
-
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use treadmill_config::PpoConfig;
 use treadmill_gpu::GpuError;
-use treadmill_policy::{CHUNK_ROWS, Networks, ParameterError, Policy};
+use treadmill_policy::{Networks, ParameterError, Policy};
 
 use crate::{
     batch::{Batch, shuffle, weighted_advantages},
     device::Device,
     gpu_passes::{self, GpuPasses},
     measures::{adapt_learning_rate, explained_variance},
+    options::PpoOptions,
     passes::{CpuPasses, Passes},
     state::PpoState,
     update_stats::{UpdateError, UpdateStats, check_finite},
@@ -21,31 +19,6 @@ use crate::{
 const KL_MAX: f64 = 8.0;
 /// The learning rate is divided by this after a pass that was undone.
 const UNDONE_FACTOR: f64 = 4.0;
-
-/// What learning needs beside its state.
-#[derive(Clone, Debug)]
-pub struct PpoOptions {
-    /// Device that computes gradients.
-    pub device: Device,
-    /// Threads of the update on a CPU; the results do not depend on their number.
-    pub pool: Arc<ThreadPool>,
-    /// Rows of a gradient step that a thread takes at a time.
-    pub chunk_rows: usize,
-    /// Limit of normalised observations.
-    pub observation_clip: f32,
-}
-
-impl PpoOptions {
-    /// Returns options for a CPU.
-    ///
-    /// # Errors
-    /// If the threads cannot be started.
-    pub fn on_cpu(threads: usize) -> Result<Self, ThreadPoolBuildError> {
-        let builder = ThreadPoolBuilder::new().thread_name(|index| format!("update-{index}"));
-        let pool = builder.num_threads(threads).build()?;
-        Ok(Self { device: Device::Cpu, pool: Arc::new(pool), chunk_rows: CHUNK_ROWS, observation_clip: 10.0 })
-    }
-}
 
 /// Proximal policy optimisation: improves a [`PpoState`] batch by batch.
 #[derive(Clone, Debug)]
