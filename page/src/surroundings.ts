@@ -82,6 +82,7 @@ export class Surroundings {
   private terrain: Terrain | undefined;
   /** Light of a room; `null` where it would take long. */
   private room: THREE.Texture | null = null;
+  private isPlain = false;
 
   constructor(private readonly scene: THREE.Scene, renderer: THREE.WebGLRenderer) {
     // It takes seconds on a processor, and nothing is seen before.
@@ -106,16 +107,17 @@ export class Surroundings {
 
   /** Draws plainly, for machines without a GPU: no shadow, and no light from the room. */
   simplify(isPlain: boolean): void {
-    this.key.castShadow = !isPlain;
-    this.scene.environment = isPlain ? null : this.room;
-    this.hemisphere.intensity = this.scene.environment === null ? 2 : (this.dark.matches ? DARK : LIGHT).hemisphere;
+    this.isPlain = isPlain || this.room === null;
+    this.key.castShadow = !this.isPlain;
+    this.scene.environment = this.isPlain ? null : this.room;
+    this.hemisphere.intensity = this.isPlain ? 2 : (this.dark.matches ? DARK : LIGHT).hemisphere;
   }
 
   private paint(): void {
     const theme = this.dark.matches ? DARK : LIGHT;
     this.grid.color.setHex(this.terrain?.colour ?? theme.ground);
     this.line.setHex(theme.line);
-    this.hemisphere.intensity = theme.hemisphere;
+    this.hemisphere.intensity = this.isPlain ? 2 : theme.hemisphere;
     this.key.intensity = theme.key;
     const corners = this.dome.geometry.getAttribute("position");
     const colours = new THREE.BufferAttribute(new Float32Array(3 * corners.count), 3);

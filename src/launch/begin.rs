@@ -33,7 +33,8 @@ pub fn begin(
     let Sources { source, fork, init_from } = sources(launcher, new, any, changes)?;
     let mut config = source.build()?;
     complete(&mut config);
-    if config.learner.chunk_rows == 0 {
+    // A deterministic run is the same with any number of threads.
+    if config.learner.chunk_rows == 0 && !config.run.deterministic {
         let threads = machine::threads(config.learner.threads as usize);
         config.learner.chunk_rows = settings::chunk_rows(&config.ppo, threads);
     }

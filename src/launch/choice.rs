@@ -6,7 +6,7 @@
 use std::time::{Duration, Instant};
 
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
-use treadmill_config::{Config, RolloutConfig};
+use treadmill_config::{Config, LearnerMode, RolloutConfig};
 use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::intake::HorizonRule;
 use treadmill_policy::Networks;
@@ -28,8 +28,10 @@ const GAIN_MIN: f64 = 0.1;
 const SERIAL_S: f64 = 0.004;
 /// Most environments that are measured, which take time to build. More take longer in proportion.
 const SHARE_MAX: u32 = 64;
-/// Longest measurement of a candidate's control steps.
-const MEASURE_MAX: Duration = Duration::from_millis(50);
+/// Most rows of the gradient steps that are measured.
+const MINIBATCH_MAX: u32 = 2048;
+/// Duration of the measurement of a candidate's control steps.
+const MEASURE_FOR: Duration = Duration::from_millis(50);
 
 /// Speeds of a machine with the task and networks of a run.
 #[derive(Clone, Debug)]
@@ -53,9 +55,10 @@ pub fn choose_environments(
 ) -> Option<String> {
     let cores = machine::cores();
     let is_usual = config.rollout.envs == CANDIDATES[0]
+        && config.learner.mode == LearnerMode::Sync
         && (config.rollout.actors, config.rollout.fragment_steps) == (0, 0)
         && !config.run.deterministic;
-    if cores < CORES_MIN || !is_usual || networks.mirror().is_none() {
+    if cores < CORES_MIN || !is_usual || networks.mirror().is_none() || matches!(device, Device::Candle) {
         return None;
     }
     let speeds = measure(config, tasks, model_xml, networks, device, cores)?;
@@ -113,9 +116,13 @@ fn measure(
         *duration_s = known.1 * f64::from(share) / f64::from(few);
     }
     let threads = machine::threads(config.learner.threads as usize);
-    let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(threads).ok()? };
-    let minibatch = UpdateSize::of(&config.ppo).minibatch;
-    let (_, samples_per_s, _) = update::measure(options, networks.clone(), minibatch, 2).ok()?;
+    let options = PpoOptions {
+        device: device.with_own_memory(),
+        chunk_rows: config.learner.chunk_rows as usize,
+        ..PpoOptions::on_cpu(threads).ok()?
+    };
+    let minibatch = UpdateSize::of(&config.ppo).minibatch.min(MINIBATCH_MAX);
+    let (_, samples_per_s, _) = update::measure(options, networks.clone(), minibatch, 1).ok()?;
     let actors = f64::from(actor_processes(config.rollout.actors, RolloutConfig::default().envs));
     Some(Speeds { step_s, row_s: 1.0 / samples_per_s, actors_per_core: (actors / cores as f64).max(1.0) })
 }
@@ -128,7 +135,7 @@ fn control_step_s(config: &Config, tasks: &TaskRegistry, model_xml: &str, envs: 
     let (actions, mut results) = (vec![0.0; envs * environments.action_size()], StepResults::default());
     (0..WARM_UP).for_each(|_| environments.step(&actions, &mut results));
     let (begun, mut steps) = (Instant::now(), 0_u32);
-    while steps == 0 || begun.elapsed() < MEASURE_MAX {
+    while steps == 0 || begun.elapsed() < MEASURE_FOR {
         environments.step(&actions, &mut results);
         steps += 1;
     }
@@ -200,7 +207,8 @@ mod tests {
         let reversed = |size: usize| (0..size).rev().map(|entry| (entry, 1.0)).collect();
         let mirror = PolicyMirror { observation: reversed(45), action: reversed(17) };
         let networks = Networks::new(shape, Some(mirror)).unwrap();
-        let (config, tasks) = (Config::default(), TaskRegistry::default());
+        let (mut config, tasks) = (Config::default(), TaskRegistry::default());
+        config.learner.chunk_rows = 256;
         let measured = measure(&config, &tasks, HUMANOID_XML, &networks, &Device::Cpu, 2).expect("it is measured");
         assert!(measured.step_s.iter().all(|step_s| *step_s > 0.0 && *step_s < 10.0), "{measured:?}");
         assert!(measured.row_s > 0.0 && measured.row_s < 1e-3 && measured.actors_per_core >= 1.0, "{measured:?}");

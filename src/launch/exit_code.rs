@@ -14,7 +14,7 @@ use crate::launch::output::say_error;
 pub struct Usage(pub String);
 
 impl Usage {
-    /// Tests that the file of a flag can be written, before the work whose result it is for.
+    /// Returns an error if the file of a flag cannot be written. Work that takes long asks first.
     pub fn unless_writable(flag: &str, path: Option<&Path>) -> Result<(), Self> {
         let refused = |path: &Path, why| Self(format!("{flag} {}: it cannot be written: {why}", path.display()));
         path.map_or(Ok(()), |path| atomic_file::check(path).map_err(|why| refused(path, why)))

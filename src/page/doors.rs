@@ -3,7 +3,7 @@
 use std::{
     fmt::Write,
     io,
-    net::{IpAddr, SocketAddr},
+    net::{IpAddr, Ipv6Addr, SocketAddr},
     path::Path,
     pin::Pin,
     sync::Arc,
@@ -83,14 +83,17 @@ impl Door {
     pub fn host(&self) -> String {
         let own = machine::host_name();
         let Self::Token(_, _, hosts) = self else { return own };
-        let found =
-            hosts.iter().find(|host| **host == own).or_else(|| hosts.iter().find(|host| certificates::is_far(host)));
+        let found = hosts
+            .iter()
+            .find(|host| **host == own)
+            .or_else(|| hosts.iter().find(|host| certificates::is_far(host) && !host.contains('*')));
         if found.is_none() {
             tracing::warn!(
                 "the certificate names only this machine, so browsers elsewhere refuse the page: `treadmill certs DIR --host {own}`"
             );
         }
-        found.unwrap_or(&own).clone()
+        let host = found.unwrap_or(&own);
+        if host.parse::<Ipv6Addr>().is_ok() { format!("[{host}]") } else { host.clone() }
     }
 
     /// Returns the address of the page at a host with a port.
@@ -288,6 +291,7 @@ mod tests {
         assert_eq!(door(&["localhost", "::1", "box", "other"]).host(), "box");
         assert_eq!(door(&["box", &own_name]).host(), own_name);
         assert_eq!(door(&["localhost"]).host(), own_name);
+        assert_eq!(door(&["*.lab", "fd00::1"]).host(), "[fd00::1]");
         let door = door(&["box"]);
         let own = headers("box:7448", Some("https://box:7448"));
         for (path, query, is_admitted) in [

@@ -25,7 +25,7 @@ pub struct NetworkStructure {
     pub splits: Vec<SignedPair>,
 }
 
-/// NetworkLayer of a network.
+/// Layer of a network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkLayer {
     /// Columns of a row that it writes.

@@ -42,7 +42,7 @@ pub fn write_quickly(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Tests that `path` can be written, before the work whose result it is for.
+/// Tests that `path` can be written. Work that takes long asks first.
 ///
 /// # Errors
 /// The system's error, such as a missing folder or permission.

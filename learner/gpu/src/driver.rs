@@ -79,6 +79,16 @@ impl Gpu {
         &self.version
     }
 
+    /// Waits until the GPU has done all that it was asked, and makes it that of this thread, as freeing its memory needs.
+    ///
+    /// # Errors
+    /// If the driver fails.
+    pub fn synchronize(&self) -> Result<(), GpuError> {
+        let failed = failed("computed an update");
+        self.context.bind_to_thread().map_err(&failed)?;
+        self.stream.synchronize().map_err(failed)
+    }
+
     /// Returns free and whole memory in bytes.
     ///
     /// # Errors
@@ -129,7 +139,12 @@ impl Memory {
         })
     }
 
-    /// Copies numbers to the array, from an offset on.
+    /// Waits until all copies have arrived: the host's memory may change again.
+    pub(crate) fn settle(&self) -> Result<(), GpuError> {
+        self.gpu.synchronize()
+    }
+
+    /// Copies numbers to the array, from an offset on; see [`Self::settle`].
     pub(crate) fn write(&mut self, at: usize, numbers: &[f32]) -> Result<(), GpuError> {
         let mut part = self.numbers.slice_mut(at..at + numbers.len());
         self.gpu.stream.memcpy_htod(numbers, &mut part).map_err(failed("received a batch"))
@@ -149,12 +164,14 @@ impl Memory {
 
     /// Returns numbers, after all launches before.
     pub(crate) fn read(&self, range: Range<usize>) -> Result<Vec<f32>, GpuError> {
-        self.gpu.stream.clone_dtoh(&self.numbers.slice(range)).map_err(failed("computed a pass"))
+        let numbers = self.gpu.stream.clone_dtoh(&self.numbers.slice(range)).map_err(failed("computed a pass"))?;
+        self.gpu.synchronize().map(|()| numbers)
     }
 
     /// Returns control numbers, after all launches before.
     pub(crate) fn read_controls(&self, range: Range<usize>) -> Result<Vec<f64>, GpuError> {
-        self.gpu.stream.clone_dtoh(&self.controls.slice(range)).map_err(failed("computed a pass"))
+        let controls = self.gpu.stream.clone_dtoh(&self.controls.slice(range)).map_err(failed("computed a pass"))?;
+        self.gpu.synchronize().map(|()| controls)
     }
 
     /// Copies the state to its backup.
@@ -193,7 +210,7 @@ impl Memory {
         let mut builder = self.gpu.stream.launch_builder(&self.gpu.kernels[launch.kernel]);
         builder.arg(&self.numbers).arg(&self.integers).arg(&self.controls).arg(&at);
         // SAFETY: each kernel takes these arguments, and a layout's fields lead it to offsets inside the arrays, which its
-        // threads write to without two of them writing to the same.
+        // threads write to without two of them writing to the same, but for one flag that all set to the same.
         unsafe { builder.launch(config) }.map(drop)
     }
 }

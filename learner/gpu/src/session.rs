@@ -181,7 +181,8 @@ impl Session {
         memory.write(layout.returns, batch.returns)?;
         memory.write(layout.old_means, batch.old_means)?;
         memory.write(layout.old_log_std, batch.old_log_std)?;
-        memory.write_integers(layout.measured, batch.measured)
+        memory.write_integers(layout.measured, batch.measured)?;
+        memory.settle()
     }
 
     /// Takes a gradient step on the first of `sizes` rows of `order`, on the next, and so on. Keeps what was before for
@@ -262,18 +263,20 @@ impl Session {
 
     /// Captures the graphs of steps on so many rows, and of the divergence.
     fn prepare(&mut self, rows: usize) -> Result<(), GpuError> {
-        if self.steps.contains_key(&rows) && self.divergences.contains_key(&self.measured) {
-            return Ok(());
-        }
         let Self { structure, layout, room, .. } = self;
         let plan = StepPlan { structure, layout, observation: room.observation, parameters: room.parameters };
-        let step = plan.step(rows, self.fields);
-        let divergence = plan.divergence(self.measured, self.fields + step.fields.len());
-        let end = self.fields + step.fields.len() + divergence.fields.len();
-        assert!(end <= self.layout.fields.end, "networks have fewer layers");
-        let (step, divergence) = (self.capture(&step)?, self.capture(&divergence)?);
-        self.steps.insert(rows, step);
-        self.divergences.insert(self.measured, divergence);
+        let step = (!self.steps.contains_key(&rows)).then(|| plan.step(rows, self.fields));
+        let begin = self.fields + step.as_ref().map_or(0, |step| step.fields.len());
+        let measured = self.measured;
+        let divergence = (!self.divergences.contains_key(&measured)).then(|| plan.divergence(measured, begin));
+        if let Some(step) = step {
+            let graph = self.capture(&step)?;
+            self.steps.insert(rows, graph);
+        }
+        if let Some(divergence) = divergence {
+            let graph = self.capture(&divergence)?;
+            self.divergences.insert(measured, graph);
+        }
         Ok(())
     }
 
@@ -285,8 +288,10 @@ impl Session {
 
     fn capture(&mut self, program: &Program) -> Result<Graph, GpuError> {
         let fields: Vec<u32> = program.fields.iter().map(|field| *field as u32).collect();
+        assert!(program.begin + fields.len() <= self.layout.fields.end, "networks have fewer layers");
         self.memory.write_integers(program.begin, &fields)?;
         self.fields += fields.len();
+        self.memory.settle()?;
         self.memory.capture(&program.launches)
     }
 }
@@ -294,9 +299,10 @@ impl Session {
 /// Returns the error for a batch that does not fit, with one that does.
 fn too_large(networks: &Networks, wanted: &Room, usable: u64) -> GpuError {
     let bytes = |batch: usize| memory_bytes(networks, batch, wanted.minibatch.min(batch.max(1)), wanted.measured);
-    let fitting = (0..wanted.batch.ilog2()).rev().map(|power| 1_usize << power).find(|batch| bytes(*batch) <= usable);
+    let powers = (0..=wanted.batch.ilog2()).rev().map(|power| 1_usize << power);
+    let fitting = powers.filter(|batch| *batch < wanted.batch).find(|batch| bytes(*batch) <= usable);
     let remedy = match fitting {
-        Some(batch) => format!("--set ppo.batch_max={batch} fits"),
+        Some(batch) => format!("--set ppo.batch_max={batch} fits unless ppo.batch is larger"),
         None => "no batch fits: free its memory (check `nvidia-smi`)".to_string(),
     };
     let mb = |bytes: u64| bytes.div_ceil(1_000_000);

@@ -42,6 +42,17 @@ impl std::str::FromStr for DeviceKind {
     }
 }
 
+impl Device {
+    /// Returns the same device, which takes memory of its own for updates and frees it when it is dropped.
+    #[must_use]
+    pub fn with_own_memory(&self) -> Self {
+        match self {
+            Self::Cuda(gpu, _) => Self::Cuda(gpu.clone(), Arc::default()),
+            other => other.clone(),
+        }
+    }
+}
+
 impl DeviceKind {
     /// Returns the name that a user gives.
     #[must_use]

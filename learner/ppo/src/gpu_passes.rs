@@ -36,12 +36,15 @@ pub(crate) fn reserve<'a>(
 ) -> Result<MutexGuard<'a, Option<Session>>, GpuError> {
     let mut session = session.lock().unwrap_or_else(PoisonError::into_inner);
     let largest = |rows: usize| minibatches(rows, config.minibatch_rows()).map(|range| range.len()).max().unwrap_or(0);
-    // A minibatch of a batch that is a little larger has up to one and a half times the rows.
-    let most = largest(rows).max(config.minibatch_rows() * 3 / 2).min(rows.max(BatchSize::of(config).transitions_max));
+    // A minibatch has up to one and a half times the rows, also of a batch that has grown.
+    let grown = config.minibatch_rows() * config.growth(u64::MAX) as usize * 3 / 2;
+    let most = largest(rows).max(grown).min(rows.max(BatchSize::of(config).transitions_max));
     if session.as_ref().is_none_or(|session| !session.fits(networks, rows, largest(rows), KL_ROWS)) {
         let batch = rows.max(BatchSize::of(config).transitions_max);
-        // The old memory is free before the new is taken.
+        // The old memory is free before the new is taken, once the GPU has done all.
+        gpu.synchronize()?;
         *session = None;
+        gpu.synchronize()?;
         *session = Some(Session::new(gpu, networks, batch, most, KL_ROWS)?);
     }
     Ok(session)

@@ -11,6 +11,7 @@ use crate::{
     measures::{adapt_learning_rate, explained_variance},
     options::PpoOptions,
     passes::{CpuPasses, Passes},
+    settings::BatchSize,
     state::PpoState,
     update_stats::{UpdateError, UpdateStats, check_finite},
 };
@@ -45,7 +46,7 @@ impl Ppo {
     /// If the memory is too small.
     pub fn reserve(&self, networks: &Networks) -> Result<Option<(String, u64)>, GpuError> {
         let Device::Cuda(gpu, session) = &self.options.device else { return Ok(None) };
-        let rows = self.config.batch as usize;
+        let rows = BatchSize::of(&self.config).transitions_max;
         let session = gpu_passes::reserve(gpu, session, networks, &self.config, rows)?;
         let name = format!("{}, driver for CUDA {}", gpu.name(), gpu.cuda_version());
         Ok(session.as_ref().map(|session| (name, session.memory_bytes())))

@@ -1,8 +1,10 @@
 //! Diagnosis of a GPU: driver, memory, and how long a gradient step takes there and on the processor.
 
+use treadmill_config::PpoConfig;
 use treadmill_ppo::{
     PpoOptions,
     device::{Device, DeviceKind, GpuError},
+    settings,
 };
 use treadmill_runtime::{error_chain, machine::cores};
 
@@ -59,7 +61,9 @@ fn steps_us(gpu: &Device) -> anyhow::Result<Vec<String>> {
 /// Returns the duration of a gradient step on so many rows, in microseconds.
 fn step_us(device: &Device, rows: u32) -> anyhow::Result<f64> {
     let measure = |updates: u32| -> anyhow::Result<f64> {
-        let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(cores())? };
+        let config = PpoConfig { minibatch: rows, ..PpoConfig::default() };
+        let chunk_rows = settings::chunk_rows(&config, cores()) as usize;
+        let options = PpoOptions { device: device.clone(), chunk_rows, ..PpoOptions::on_cpu(cores())? };
         let (_, samples_per_s, _) = update::measure(options, network::usual(), rows, updates)?;
         Ok(1e6 * f64::from(rows) / samples_per_s)
     };
