@@ -15,8 +15,8 @@ use crate::{
     loss_gradient::{LossSums, LossTerms},
 };
 
-/// Memory of all lanes in bytes. Every chunk has a lane of its own up to 47 chunks of 256 rows (12,032 rows) of networks of 256 and
-/// 128, so that as many threads find work.
+/// Memory of all lanes in bytes. Every chunk has a lane of its own up to 47 chunks of 256 rows (12,032 rows) of networks of
+/// 256 and 128, so that as many threads find work.
 const LANE_BYTES_MAX: usize = 128 << 20;
 /// Fewest lanes that the memory is divided into.
 const LANES_MIN: usize = 8;

@@ -200,7 +200,7 @@ impl TrialRunner<'_> {
         words.push(format!("--seed={seed}"));
         words.extend(self.pause_at.map(|steps| format!("--steps={steps}")));
         words.extend(parent.map(|_| format!("--fork={}", forked(self.folder, index).display())));
-        // Also where a trial has all cores: one that chose by measuring them could begin with other environments than the rest.
+        // Also where a trial has all cores: one that measured them could begin with other environments than the rest.
         let has_own = plan.connect.is_empty() && !plan.deterministic;
         if has_own && !words.iter().any(|word| word.starts_with("--actors")) {
             words.push(format!("--actors={actors}"));
