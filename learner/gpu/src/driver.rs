@@ -37,6 +37,13 @@ impl fmt::Debug for Gpu {
     }
 }
 
+impl fmt::Display for Gpu {
+    /// Writes the name, and the newest version of CUDA that the driver supports.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}, driver for CUDA {}", self.name, self.version)
+    }
+}
+
 impl Gpu {
     /// Opens the first GPU and loads the kernels.
     ///
@@ -67,16 +74,6 @@ impl Gpu {
         let kernels: Result<_, _> = KERNELS.iter().map(load).collect();
         let name = context.name().map_err(absent)?;
         Ok(Self { kernels: Arc::new(kernels.map_err(absent)?), context, stream, name, version: shown })
-    }
-
-    /// Returns the name of the GPU.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Returns the newest version of CUDA that the driver supports.
-    pub fn cuda_version(&self) -> &str {
-        &self.version
     }
 
     /// Waits until the GPU has done all that it was asked, and makes it that of this thread, as freeing its memory needs.

@@ -172,8 +172,8 @@ impl StepPlan<'_> {
         if self.structure.is_equivariant { [layer.output / 2; 2] } else { [layer.output, 0] }
     }
 
-    /// Adds the launches from the rows of a batch to the outputs of networks, without the last bias. Networks may have
-    /// other numbers of layers only if all do.
+    /// Adds the launches from the rows of a batch to the outputs of networks, without the last bias. All networks have
+    /// the same number of layers.
     fn forward(&self, program: &mut Program, networks: &[Network], rows: usize, index: usize, by_start: bool) {
         let (layout, width) = (self.layout, self.observation);
         let gather = [rows, width, index, usize::from(by_start), layout.inputs, layout.gathered];

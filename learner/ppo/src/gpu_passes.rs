@@ -96,9 +96,9 @@ impl Passes for GpuPasses<'_> {
             bounds_coefficient: config.bounds_coefficient,
             bounds_limit: config.bounds_limit,
         };
-        let ranges: Vec<_> = minibatches(order.len(), config.minibatch_rows()).map(|range| range.len()).collect();
-        self.steps = ranges.len() as u64;
-        let sums = self.session().pass(order, &ranges, &settings)?;
+        let sizes: Vec<_> = minibatches(order.len(), config.minibatch_rows()).map(|range| range.len()).collect();
+        self.steps = sizes.len() as u64;
+        let sums = self.session().pass(order, &sizes, &settings)?;
         stats.policy_loss += sums.policy;
         stats.value_loss += sums.value;
         stats.bounds_loss += sums.bounds;

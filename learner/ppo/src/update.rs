@@ -48,8 +48,7 @@ impl Ppo {
         let Device::Cuda(gpu, session) = &self.options.device else { return Ok(None) };
         let rows = BatchSize::of(&self.config).transitions_max;
         let session = gpu_passes::reserve(gpu, session, networks, &self.config, rows)?;
-        let name = format!("{}, driver for CUDA {}", gpu.name(), gpu.cuda_version());
-        Ok(session.as_ref().map(|session| (name, session.memory_bytes())))
+        Ok(session.as_ref().map(|session| (gpu.to_string(), session.memory_bytes())))
     }
 
     /// Returns the largest distance of a probability ratio from 1 that the loss rewards.

@@ -29,14 +29,13 @@ pub fn diagnose() -> Finding {
         Err(why) => return Finding::note("gpu", error_chain(&why), "without it, updates run on the processor"),
     };
     let Device::Cuda(gpu, _) = &device else { return Finding::ok("gpu", "none") };
-    let name = format!("{}, driver for CUDA {}", gpu.name(), gpu.cuda_version());
     match gpu.memory_bytes().map_err(anyhow::Error::from).and_then(|bytes| Ok((bytes, steps_us(&device)?))) {
         Ok(([free, all], steps)) => {
             let [free_mb, all_mb] = [free, all].map(|bytes| bytes / 1_000_000);
-            Finding::ok("gpu", format!("{name}, {free_mb} of {all_mb} MB free; {}", steps.join("; ")))
+            Finding::ok("gpu", format!("{gpu}, {free_mb} of {all_mb} MB free; {}", steps.join("; ")))
         }
         Err(why) => {
-            Finding::problem("gpu", format!("{name}: {why:#}"), "check `nvidia-smi`, or train with --device cpu")
+            Finding::problem("gpu", format!("{gpu}: {why:#}"), "check `nvidia-smi`, or train with --device cpu")
         }
     }
 }
