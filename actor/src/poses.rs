@@ -114,6 +114,7 @@ pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
         contacts: contacts(physics),
         joint_torques_nm: all(physics.joint_torques_nm()),
         joint_angles_rad: all(physics.joint_angles()),
+        joint_controls: joint_controls(physics),
         centre_of_mass_m: narrow(physics.centre_of_mass().coords.into()),
         reward_survive: info.reward_survive as f32,
         reward_forward: info.reward_forward as f32,
@@ -129,6 +130,17 @@ pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
 pub fn heading_velocity(physics: &Physics) -> [f64; 3] {
     let base = BaseMotion::new(physics.position(), physics.velocity(), 0.0);
     [base.velocity_mps.x, base.velocity_mps.y, base.yaw_rate_radps]
+}
+
+/// Returns the target of each hinge's servo (rad), or the control of its motor: of several motors the first one's, without
+/// any 0.
+fn joint_controls(physics: &Physics) -> Vec<f32> {
+    let model = physics.model();
+    let mut controls = vec![0.0; model.hinges.len()];
+    for (motor, &control) in model.motors.iter().zip(physics.controls()).rev() {
+        controls[motor.hinge] = motor.target_rad(f64::from(control)).map_or(control, |target_rad| target_rad as f32);
+    }
+    controls
 }
 
 /// Returns position (m) and quaternion w, x, y, z of each body.

@@ -143,6 +143,7 @@ const treadmill = {
   shown,
   frames: () => timeline.received,
   robots: () => view.robots.length,
+  bodies: () => view.robots.map(({ bodies }) => bodies.filter(({ children }) => children.length > 0).length),
   ghosts: () => view.robots.filter(({ ghost }) => ghost.visible).length,
   connected: () => connection.connected,
   steers: () => steering.steers,

@@ -8,13 +8,20 @@ const CREASE_RAD = Math.PI / 6;
 /** toCreasedNormals joins corners that are less than 0.01 apart. */
 const CREASE_SCALE = 1000;
 
+/** Up to so many corners, triangles name them by 16 bits. */
+const MOST_OF_16_BITS = 65_536;
+
 /** Joins meshes of one colour and kind of surface, so that a body costs few draw calls. */
 export function joined(meshes: readonly PageMesh[]): THREE.BufferGeometry {
-  const parts = meshes.map(({ corners, triangles, isFaceted }) => {
+  const parts = meshes.map(({ corners, triangles, isFaceted, lowM, unitM }) => {
     const geometry = new THREE.BufferGeometry();
     // Copies, as bytes of a message may begin at an odd address.
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners.slice().buffer), 3));
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(triangles.slice().buffer), 1));
+    const steps = new Uint16Array(corners.slice().buffer);
+    const positions = Float32Array.from(steps, (step, at) => lowM[at % 3]! + step * unitM[at % 3]!);
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    const Index = positions.length / 3 <= MOST_OF_16_BITS ? Uint16Array : Uint32Array;
+    // Parts of one body may differ in their number of corners.
+    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(new Index(triangles.slice().buffer)), 1));
     geometry.computeVertexNormals();
     if (!isFaceted) return geometry;
     const large = geometry.scale(CREASE_SCALE, CREASE_SCALE, CREASE_SCALE);

@@ -13,8 +13,10 @@ const LARGEST_FADE = 0.99;
 /** Unit of the reward's terms. */
 const REWARD = 1e-4;
 
-/** Curve of the last seconds with a line at each finite limit. */
-function limited(target: HTMLElement, limits: number[]): (times: number[], values: (number | null)[]) => void {
+type Values = (number | null)[];
+
+/** Curves of the last seconds, one in each colour, with a line at each finite limit. */
+function limited(target: HTMLElement, limits: number[], colours: string[]): (times: number[], ...curves: Values[]) => void {
   target.replaceChildren();
   const lines = limits.filter(Number.isFinite);
   const line = { width: 1.5, points: { show: false } };
@@ -23,13 +25,13 @@ function limited(target: HTMLElement, limits: number[]): (times: number[], value
     ...{ width: target.clientWidth || 260, height: PLOT_HEIGHT, padding: [5, 8, 0, 0], cursor: { show: false } },
     scales: { x: { time: false, range: [-PLOT_S, 0] } },
     axes: axes((value) => `${value} s`, 20),
-    series: [{}, { ...line, stroke: () => colour("blue") }, ...lines.map(() => dashed)],
+    series: [{}, ...colours.map((name) => ({ ...line, stroke: () => colour(name) })), ...lines.map(() => dashed)],
   };
-  const plot = new uPlot(options, [[], [], ...lines.map(() => [])], target);
-  return (times, values) => {
+  const plot = new uPlot(options, [[], ...[...colours, ...lines].map(() => [])], target);
+  return (times, ...curves) => {
     const width = target.clientWidth;
     if (width !== plot.width && width > 0) plot.setSize({ width, height: PLOT_HEIGHT });
-    plot.setData([times, values, ...lines.map((limit) => times.map(() => limit))]);
+    plot.setData([times, ...curves, ...lines.map((limit) => times.map(() => limit))]);
   };
 }
 
@@ -38,7 +40,7 @@ export class Panels {
   private robots: readonly PageRobot[] = [];
   private terms: { value: Element; bar: HTMLElement }[] = [];
   private largest = 0;
-  /** Plots of the angle and the torque. */
+  /** Plots of the angle with its servo's target, and of the torque. */
   private plots: ReturnType<typeof limited>[] = [];
 
   constructor(private readonly timeline: Timeline) {
@@ -74,8 +76,8 @@ export class Panels {
     // Without a motor there is no largest torque.
     const effort_nm = hinge?.effortNm || Infinity;
     if (hinge === undefined) return;
-    const angle = limited(element("angle-plot"), [hinge.lowRad, hinge.highRad]);
-    this.plots = [angle, limited(element("torque-plot"), [-effort_nm, effort_nm])];
+    const angle = limited(element("angle-plot"), [hinge.lowRad, hinge.highRad], ["blue", "yellow"]);
+    this.plots = [angle, limited(element("torque-plot"), [-effort_nm, effort_nm], ["blue"])];
   }
 
   /** Shows the moment of the timeline. */
@@ -113,17 +115,22 @@ export class Panels {
 
   private joint(now: PageFrame): void {
     const at = Number(choice("hinge").value);
-    const angle_rad = ({ anglesMrad }: PageFrame) => (at in anglesMrad ? anglesMrad[at]! / 1000 : null);
+    const { isServo = false } = this.robots[this.robot]?.hinges[at] ?? {};
+    const thousandths = (numbers: readonly number[]) => (at in numbers ? numbers[at]! / 1000 : null);
     const torque_nm = (frame: PageFrame) => (frame.torquesCnm[at] ?? 0) / 100;
-    const [times, angles, torques]: [number[], (number | null)[], number[]] = [[], [], []];
+    const [times, angles, targets, torques]: [number[], Values, Values, number[]] = [[], [], [], []];
     this.timeline.visit(this.robot, PLOT_S, ({ shown_s, frame }) => {
       times.push(shown_s - this.timeline.time_s);
-      angles.push(angle_rad(frame));
+      angles.push(thousandths(frame.anglesMrad));
+      targets.push(isServo ? thousandths(frame.controlsE3) : null);
       torques.push(torque_nm(frame));
     });
-    this.plots[0]?.(times, angles);
+    this.plots[0]?.(times, angles, targets);
     this.plots[1]?.(times, torques);
-    say(element("angle"), angle_rad(now)?.toFixed(3) ?? "–");
+    const control = thousandths(now.controlsE3)?.toFixed(3) ?? "–";
+    say(element("angle"), thousandths(now.anglesMrad)?.toFixed(3) ?? "–");
+    say(element("target"), isServo ? `target ${control}` : "");
     say(element("torque"), torque_nm(now).toFixed(2));
+    say(element("control"), isServo ? "" : `action ${control}`);
   }
 }

@@ -1,5 +1,7 @@
 //! Messages of the page in the browser, see `schema/page.proto`.
 
+use std::collections::HashMap;
+
 use prost::Message;
 
 pub use crate::wire::{
@@ -51,6 +53,50 @@ impl FromPage {
         };
         check_finite("numbers of the page", &numbers)?;
         Ok(kind)
+    }
+}
+
+impl PageMesh {
+    /// Packs triangles, which name corners by their index. Corners that are equal after rounding become one, and triangles
+    /// that have one twice are left out.
+    ///
+    /// # Panics
+    /// If a triangle has a corner that there is not.
+    #[must_use]
+    pub fn packed(corners_m: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+        /// Steps between the lowest and the highest corner.
+        const STEPS: f32 = u16::MAX as f32;
+        let extreme = |axis: usize, of: fn(f32, f32) -> f32| corners_m.iter().map(|corner| corner[axis]).reduce(of);
+        let low_m: [f32; 3] = std::array::from_fn(|axis| extreme(axis, f32::min).unwrap_or(0.0));
+        let unit_m: [f32; 3] =
+            std::array::from_fn(|axis| (extreme(axis, f32::max).unwrap_or(0.0) - low_m[axis]) / STEPS);
+        let mut places = HashMap::new();
+        let mut corners: Vec<u8> = Vec::new();
+        let mut place_of = |corner: &[f32; 3]| {
+            let steps: [u16; 3] = std::array::from_fn(|axis| match unit_m[axis] {
+                unit_m if unit_m > 0.0 => ((corner[axis] - low_m[axis]) / unit_m).round() as u16,
+                _ => 0,
+            });
+            let count = places.len() as u32;
+            *places.entry(steps).or_insert_with(|| {
+                corners.extend(steps.into_iter().flat_map(u16::to_le_bytes));
+                count
+            })
+        };
+        let placed: Vec<u32> = corners_m.iter().map(&mut place_of).collect();
+        let renamed = triangles.iter().map(|triangle| triangle.map(|corner| placed[corner as usize]));
+        let renamed = renamed.filter(|[a, b, c]| a != b && b != c && c != a).flatten();
+        let triangles: Vec<u8> = match places.len() <= 1 << 16 {
+            true => renamed.flat_map(|corner| (corner as u16).to_le_bytes()).collect(),
+            false => renamed.flat_map(u32::to_le_bytes).collect(),
+        };
+        Self {
+            corners: corners.into(),
+            triangles: triangles.into(),
+            low_m: low_m.to_vec(),
+            unit_m: unit_m.to_vec(),
+            ..Self::default()
+        }
     }
 }
 
@@ -109,6 +155,27 @@ mod tests {
         let rotations = [quarter, quarter, [31_416, 0, 0], [0, 0, 10]];
         assert_eq!(numbers(&bodies), rotations.map(|[x, y, z]| [5000, -2500, 0, x, y, z]).concat());
         assert_eq!(numbers(&contacts), [0, i16::MAX, -8000, 10, -1, i16::MAX]);
+    }
+
+    #[test]
+    fn a_packed_mesh_has_each_corner_once() {
+        // A square of two triangles that share no corner, 2 m wide, 1 m high and 7 m up, and a triangle without an area.
+        let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+        let corners = corners.map(|[x, y]| [x, y, 7.0]);
+        let mesh = PageMesh::packed(&corners, &[[0, 1, 2], [3, 4, 5], [0, 3, 1]]);
+        let numbers = |bytes: &[u8]| -> Vec<u16> {
+            bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair)).collect()
+        };
+        const MOST: u16 = u16::MAX;
+        assert_eq!(numbers(&mesh.corners), [[0, 0, 0], [MOST, 0, 0], [MOST, MOST, 0], [0, MOST, 0]].concat());
+        assert_eq!(numbers(&mesh.triangles), [0, 1, 2, 0, 2, 3]);
+        assert_eq!((mesh.low_m, mesh.unit_m), (vec![0.0, 0.0, 7.0], vec![2.0 / 65_535.0, 1.0 / 65_535.0, 0.0]));
+        let many: Vec<[f32; 3]> = (0..65_537).map(|i| [(i % 300) as f32, (i / 300) as f32, 0.0]).collect();
+        let mesh = PageMesh::packed(&many, &[[0, 1, 65_536]]);
+        assert_eq!((mesh.corners.len(), &mesh.triangles[8..]), (6 * 65_537, &65_536_u32.to_le_bytes()[..]));
+        let mesh = PageMesh::packed(&many[..65_536], &[[0, 1, 65_535]]);
+        assert_eq!(numbers(&mesh.triangles), [0, 1, 65_535]);
+        assert_eq!(PageMesh::packed(&[], &[]).corners.len(), 0);
     }
 
     #[test]

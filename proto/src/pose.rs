@@ -69,6 +69,7 @@ impl Pose {
         check_finite("contacts", &self.contacts)?;
         check_finite("joint_torques_nm", &self.joint_torques_nm)?;
         check_finite("joint_angles_rad", &self.joint_angles_rad)?;
+        check_finite("joint_controls", &self.joint_controls)?;
         if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
             return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
         }
@@ -103,6 +104,7 @@ mod tests {
             command: vec![0.5, 0.0, -0.2],
             base_velocity: vec![0.4, 0.1, -0.1],
             joint_angles_rad: vec![0.3],
+            joint_controls: vec![0.4],
             centre_of_mass_m: vec![1.0, 2.0, 1.0],
             ..Pose::default()
         }
@@ -117,7 +119,7 @@ mod tests {
     #[test]
     fn encoding_and_decoding_name_the_bad_field() {
         type Corrupt = fn(&mut Pose);
-        let cases: [(&str, Corrupt); 17] = [
+        let cases: [(&str, Corrupt); 18] = [
             ("run", |pose| pose.run = "a/b".into()),
             ("actor", |pose| pose.actor.clear()),
             ("version", |pose| pose.version = None),
@@ -132,6 +134,7 @@ mod tests {
             ("`command` is 2 numbers", |pose| pose.command.truncate(2)),
             ("`base_velocity` holds NaN at index 1", |pose| pose.base_velocity[1] = f32::NAN),
             ("`joint_angles_rad` holds NaN at index 0", |pose| pose.joint_angles_rad[0] = f32::NAN),
+            ("`joint_controls` holds NaN at index 0", |pose| pose.joint_controls[0] = f32::NAN),
             ("`centre_of_mass_m` is 4 numbers", |pose| pose.centre_of_mass_m.push(0.0)),
             ("time_s", |pose| pose.time_s = -1.0),
             ("pose has", |pose| pose.joint_torques_nm = vec![0.0; POSE_BYTES_MAX / 4]),

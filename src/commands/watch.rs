@@ -19,7 +19,10 @@ use crate::{
         recorded::Recorded,
         show::{POLICIES_MAX, Show, short},
     },
-    shared::{learner_address::ReachArgs, model_file::ModelFileArgs},
+    shared::{
+        learner_address::ReachArgs,
+        model_file::{ModelFileArgs, meshes},
+    },
 };
 
 /// Most runs whose curves a page shows.
@@ -48,7 +51,8 @@ pub struct WatchArgs {
     /// Seed of the resets, as for `eval`.
     #[arg(long, default_value_t = 1, conflicts_with = "live")]
     seed: u64,
-    /// MJCF or URDF file, or card, of the robot on this machine; shows its visual meshes instead of the colliding shapes.
+    /// MJCF or URDF file, or card, whose visual meshes are shown; by default the one that the run was begun with, if that is
+    /// on this machine.
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
     #[command(flatten)]
@@ -65,11 +69,13 @@ pub const RUN_HELP: &str = "\
 /// Serves the page until Ctrl-C.
 pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let WatchArgs { reach, more, live, actor, checkpoint, trace, seed, model, model_file, serve } = args;
-    let visuals =
-        model.as_deref().map(|file| visual_meshes(file, &model_file.files())).transpose()?.unwrap_or_default();
+    // Meshes that were asked for and cannot be read are an error.
+    let visuals = model.as_deref().map(|file| visual_meshes(file, &model_file.files())).transpose()?;
+    let of_first = |run: Option<&str>| visuals.clone().unwrap_or_else(|| meshes(None, model_file, run));
     let (shutdown, tls) = (Shutdown::default(), reach.network.tls.as_deref());
     if *live || reach.folder.is_none() && !reach.connect.is_empty() {
         let served = serve.open(tls)?;
+        let visuals = of_first(reach.folder.as_deref());
         return Live { reach, actor: actor.as_deref(), visuals }.run(served, &shutdown);
     }
     let Some(first) = reach.folder.clone() else {
@@ -86,7 +92,7 @@ pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
         say(&format!("the first {POLICIES_MAX} policies move; of the other runs the page shows the curves"));
     }
     if let Some(trace) = trace {
-        let recorded = Recorded::open(tasks, &runs[0], trace, visuals)?;
+        let recorded = Recorded::open(tasks, &runs[0], trace, of_first(Some(&runs[0])))?;
         return serve_until_stop(serve.open(tls)?, &shutdown, |page| page.replay(recorded, &shutdown));
     }
     // A policy that cannot be played is an error now, not a notice on the page.

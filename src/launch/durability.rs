@@ -131,7 +131,7 @@ impl LearnerRun<'_> {
             prepared.setup.folder.set_store(&store.to_string())?;
         }
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
-        startup::write_files(self.launcher, &start)?;
+        startup::write_files(self.launcher, self.new, self.any, &start)?;
         Ok(start)
     }
 
@@ -213,7 +213,7 @@ impl LearnerRun<'_> {
         let lock = RunLock::take(&folder)?;
         let mut start = resumption::go_on(self.launcher, (folder, lock), state, self.new, self.any, self.changes)?;
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
-        startup::write_files(self.launcher, &start)?;
+        startup::write_files(self.launcher, self.new, self.any, &start)?;
         Ok(start)
     }
 }

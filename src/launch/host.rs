@@ -205,7 +205,7 @@ impl<'a> Host<'a> {
             runs: if setup.config.is_external() { Vec::new() } else { vec![folder.root().display().to_string()] },
             which: Some(CheckpointChoice::Latest),
             seed: setup.config.run.seed,
-            visuals: Vec::new(),
+            visuals: None,
             logs: vec![(folder.clone(), run.clone())],
             tasks: self.options.tasks.clone(),
         }

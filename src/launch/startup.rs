@@ -10,12 +10,15 @@ use treadmill_learner::checkpoint;
 use treadmill_proto::WIRE_VERSION;
 use treadmill_runtime::{atomic_file, machine, program, run_folder::RunFolder, words};
 
-use crate::launch::{
-    begin,
-    exit_code::Usage,
-    prepared::{Launcher, Prepared, RunSetup, Start},
-    resume_line, resumption,
-    run_args::{AnyRunArgs, NewRunArgs},
+use crate::{
+    launch::{
+        begin,
+        exit_code::Usage,
+        prepared::{Launcher, Prepared, RunSetup, Start},
+        resume_line, resumption,
+        run_args::{AnyRunArgs, NewRunArgs},
+    },
+    shared::model_file::ModelSource,
 };
 
 /// Prepares a new or resumed run. `changes` are keys set by flags of the command.
@@ -38,7 +41,7 @@ pub fn prepare(
         Some(run) => resumption::resume(launcher, &run, new, any, changes)?,
         None => begin::begin(launcher, new, any, changes)?,
     };
-    write_files(launcher, &start)?;
+    write_files(launcher, new, any, &start)?;
     Ok(start)
 }
 
@@ -46,13 +49,14 @@ pub fn prepare(
 ///
 /// # Errors
 /// If its folder cannot be written; a new one is removed then.
-pub fn write_files(launcher: Launcher<'_>, start: &Start) -> anyhow::Result<()> {
+pub fn write_files(launcher: Launcher<'_>, new: &NewRunArgs, any: &AnyRunArgs, start: &Start) -> anyhow::Result<()> {
     let Start::Ready(prepared, _) = start else { return Ok(()) };
     let stale = prepared.setup.folder.remove_stale_files()?;
     if stale > 0 {
         tracing::info!(stale, "removed temporary files that a killed process left");
     }
     write_run_files(launcher, prepared)
+        .and_then(|()| write_model_source(new, any, &prepared.setup.folder))
         .inspect_err(|_| prepared.setup.folder.discard())
         .with_context(|| format!("cannot write to {}", prepared.setup.folder.root().display()))
 }
@@ -76,6 +80,15 @@ fn write_run_files(launcher: Launcher<'_>, prepared: &Prepared) -> std::io::Resu
     writeln!(commands, "{}", command_line())?;
     let versions: serde_json::Map<_, _> = facts().into_iter().map(|(name, value)| (name.to_string(), value)).collect();
     write(folder.root().join("versions.json"), &format!("{:#}\n", json!(versions)))
+}
+
+/// Notes where the file of the robot is: that of a flag, or else that of the run that this one begins from.
+fn write_model_source(new: &NewRunArgs, any: &AnyRunArgs, folder: &RunFolder) -> std::io::Result<()> {
+    let source = match &any.model {
+        Some(file) => Some(ModelSource::given(file, &any.model_file)?),
+        None => new.fork.iter().chain(&new.init_from).find_map(|run| ModelSource::of_run(run)),
+    };
+    source.map_or(Ok(()), |source| source.write(folder))
 }
 
 /// Returns this process's command line, quoted for a shell.

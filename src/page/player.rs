@@ -306,6 +306,7 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
         centre_of_mass_m: pose.centre_of_mass_m.clone(),
         ghost_base_m: Vec::new(),
         ghost: Bytes::new(),
+        controls_e3: rounded(&pose.joint_controls, 1000.0),
     }
 }
 

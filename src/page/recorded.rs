@@ -116,7 +116,8 @@ impl Recorded {
             ..poses::body_pose(&self.environment, step.command)
         };
         let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
-        PageFrame { shown_s, velocity, rewards_e4: Vec::new(), ..frame_of(&pose) }
+        // The controls of this body are not those of the trace.
+        PageFrame { shown_s, velocity, rewards_e4: Vec::new(), controls_e3: Vec::new(), ..frame_of(&pose) }
     }
 
     fn lines(&self) -> anyhow::Result<impl Iterator<Item = std::io::Result<String>> + use<>> {

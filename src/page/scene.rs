@@ -16,7 +16,9 @@ const GROUND: [f64; 3] = [0.55, 0.56, 0.58];
 /// Returns a robot by the meshes of its file, or by its colliding shapes if there are none.
 #[must_use]
 pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Vec<String>) -> PageRobot {
-    let parts = look::parts(model, visuals);
+    let mut parts = look::parts(model, visuals);
+    // Meshes of files have edges where their triangles meet at an angle.
+    parts.iter_mut().for_each(|part| part.mesh.is_faceted |= !visuals.is_empty());
     let body = |(index, body): (usize, &treadmill_humanoid::model::Body)| PageBody {
         name: body.name.clone(),
         meshes: parts.iter().filter(|part| part.body == index).map(|part| mesh(&part.mesh, part.colour)).collect(),
@@ -26,15 +28,17 @@ pub fn robot(name: &str, model: &Model, visuals: &[VisualMesh], reward_terms: Ve
         low_rad: hinge.min_rad as f32,
         high_rad: hinge.max_rad as f32,
         effort_nm: 0.0,
+        is_servo: false,
     };
     let mut hinges: Vec<PageHinge> = model.hinges.iter().map(hinge).collect();
-    for motor in &model.motors {
+    for motor in model.motors.iter().rev() {
         let [low_nm, high_nm] = model.hinges[motor.hinge].torque_nm;
         let force = motor.force.map(|force| (force * motor.gear_nm).abs()).into_iter().fold(0.0, f64::max);
         let control =
             motor.control.map(|control| (control * motor.gain * motor.gear_nm).abs()).into_iter().fold(0.0, f64::max);
         // A servo's control is an angle, so that only its force limits the torque.
         let own = if motor.bias == [0.0; 3] { control.min(force) } else { force };
+        hinges[motor.hinge].is_servo = motor.bias[1] != 0.0;
         hinges[motor.hinge].effort_nm = own.min(low_nm.abs().max(high_nm.abs())) as f32;
     }
     PageRobot {
@@ -67,12 +71,8 @@ pub fn ground(model: &Model) -> Option<PageMesh> {
 fn mesh(triangles: &TriangleMesh, colour: [f64; 3]) -> PageMesh {
     let TriangleMesh { corners_m, triangles, is_faceted } = triangles;
     let bytes = colour.map(|share| (share.clamp(0.0, 1.0) * 255.0).round() as u32);
-    PageMesh {
-        corners: corners_m.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>().into(),
-        triangles: triangles.as_flattened().iter().flat_map(|index| index.to_le_bytes()).collect::<Vec<u8>>().into(),
-        colour: iter::zip(bytes, [16, 8, 0]).map(|(byte, shift)| byte << shift).sum(),
-        is_faceted: *is_faceted,
-    }
+    let colour = iter::zip(bytes, [16, 8, 0]).map(|(byte, shift)| byte << shift).sum();
+    PageMesh { colour, is_faceted: *is_faceted, ..PageMesh::packed(corners_m, triangles) }
 }
 
 #[cfg(test)]
@@ -91,7 +91,7 @@ mod tests {
         }
         let hip = found.hinges.iter().find(|hinge| hinge.name == "right_hip_y").unwrap();
         // Gymnasium's humanoid: gear 300, controls of ±0.4.
-        assert!((hip.effort_nm - 120.0).abs() < 1e-3, "{hip:?}");
+        assert!((hip.effort_nm - 120.0).abs() < 1e-3 && !hip.is_servo, "{hip:?}");
         // The feet are welded to the shins, 0.39 and 0.45 m below the knees.
         let feet: Vec<_> = found.feet.iter().map(|foot| &found.bodies[foot.body as usize].name[..]).collect();
         assert_eq!(feet, ["right_shin", "left_shin"]);
@@ -100,6 +100,6 @@ mod tests {
         assert!(ground(&model).is_none());
         let thigh = &found.bodies.iter().find(|body| body.name == "left_thigh").unwrap().meshes[0];
         assert_eq!(thigh.colour, 0xed_8c_3d);
-        assert!(thigh.corners.len().is_multiple_of(12) && thigh.triangles.len().is_multiple_of(12));
+        assert!(thigh.corners.len().is_multiple_of(6) && thigh.triangles.len().is_multiple_of(6));
     }
 }

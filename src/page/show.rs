@@ -1,6 +1,7 @@
 //! Policies that are played for the page, in real time, while one is open.
 
 use std::{
+    borrow::Cow,
     sync::mpsc::Receiver,
     thread,
     time::{Duration, Instant},
@@ -10,10 +11,11 @@ use treadmill_actor::poses::is_shown;
 use treadmill_config::ChosenTask;
 use treadmill_humanoid::{TaskRegistry, mjcf::VisualMesh};
 use treadmill_learner::checkpoint::CheckpointChoice;
-use treadmill_proto::page::{FromPageKind, PageCommand, PagePush, PageScene};
+use treadmill_proto::page::{FromPageKind, PageCommand, PagePush, PageRobot, PageScene};
 use treadmill_runtime::{error_chain, run_folder::RunFolder, shutdown::Shutdown};
 
 use super::{curves::RunLog, hub::Hub, player::Player, scene};
+use crate::shared::model_file::{ModelFileArgs, meshes};
 
 /// Most policies side by side.
 pub const POLICIES_MAX: usize = 4;
@@ -34,8 +36,8 @@ pub struct Show {
     pub which: Option<CheckpointChoice>,
     /// Seed of the episodes.
     pub seed: u64,
-    /// Meshes of the robot's file; by default its colliding shapes.
-    pub visuals: Vec<VisualMesh>,
+    /// Meshes of the robots; by default those of each run's own file, or the colliding shapes.
+    pub visuals: Option<Vec<VisualMesh>>,
     /// Logs of metrics, with the names of their runs.
     pub logs: Vec<(RunFolder, String)>,
     /// Tasks that policies may have.
@@ -94,6 +96,7 @@ pub fn short(run: &str) -> &str {
 /// Robots that are played.
 struct Stage {
     players: Vec<Player>,
+    robots: Vec<PageRobot>,
     /// Simulated time of each player (s).
     played_s: Vec<f64>,
     steps: Vec<u32>,
@@ -106,12 +109,23 @@ impl Stage {
         let load = |run: &String| Player::load(&show.tasks, run, show.which, show.seed);
         let players: Vec<Player> = show.runs.iter().map(load).collect::<anyhow::Result<_>>()?;
         let count = players.len();
-        Ok(Self { players, played_s: vec![0.0; count], steps: vec![0; count], due: Instant::now(), command: None })
+        let robot = |player: &Player| {
+            let own = || meshes(None, &ModelFileArgs::default(), Some(player.run()));
+            let visuals = show.visuals.as_ref().map_or_else(|| Cow::Owned(own()), Cow::Borrowed);
+            scene::robot(short(player.run()), player.model(), &visuals, player.reward_terms())
+        };
+        let robots = players.iter().map(robot).collect();
+        Ok(Self {
+            players,
+            robots,
+            played_s: vec![0.0; count],
+            steps: vec![0; count],
+            due: Instant::now(),
+            command: None,
+        })
     }
 
     fn scene(&self, show: &Show, steers: bool) -> PageScene {
-        let robot =
-            |player: &Player| scene::robot(short(player.run()), player.model(), &show.visuals, player.reward_terms());
         let first = &self.players[0];
         let velocity = &first.config().velocity;
         let ranges = [velocity.lin_vel_x_mps, velocity.lin_vel_y_mps, velocity.ang_vel_z_radps];
@@ -123,7 +137,7 @@ impl Stage {
         };
         PageScene {
             title: show.title.clone(),
-            robots: self.players.iter().map(robot).collect(),
+            robots: self.robots.clone(),
             ground: scene::ground(first.model()),
             command_low: ends(f64::min, 0),
             command_high: ends(f64::max, 1),

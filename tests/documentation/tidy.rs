@@ -9,11 +9,11 @@ use std::{
 /// Most words of a page.
 const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2080), ("CHANGELOG.md", 730)];
 /// Most words of all pages together, generated ones included.
-const ALL_WORDS_MAX: usize = 41_200;
+const ALL_WORDS_MAX: usize = 41_300;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.
-const RUST_LINES_MAX: [usize; 2] = [112_800, 77_200];
+const RUST_LINES_MAX: [usize; 2] = [113_100, 77_500];
 /// Folders of the product.
 const PRODUCT: [&str; 5] = ["src/", "actor/", "common/", "learner/", "proto/"];
 /// Most files.

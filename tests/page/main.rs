@@ -6,12 +6,14 @@ mod picture;
 mod support;
 
 use std::{
+    fs,
     io::{Read, Write},
     net::TcpStream,
     path::Path,
 };
 
 use browser::{Browser, NARROW, Page, WIDE};
+use serde_json::json;
 use support::*;
 
 /// Policies that are part of the repository.
@@ -86,6 +88,16 @@ fn the_imitated_motion_is_a_ghost_beside_the_robot() {
     let Some(mut browser) = Browser::start() else { return };
     motion::write_imitated_robot(folder.path());
     motion::write_motion(folder.path(), "squat.csv", 0.6);
+    // A mesh that is only seen: the page draws it instead of the shapes, without a flag.
+    let seen = r#"<geom type="mesh" mesh="seen"/>"#;
+    fs::write(
+        folder.path().join("seen.obj"),
+        "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+    )
+    .unwrap();
+    let text = ROBOT_XML.replacen("<worldbody>", r#"<asset><mesh name="seen" file="seen.obj"/></asset><worldbody>"#, 1);
+    let root = r#"<freejoint name="root"/>"#;
+    fs::write(folder.path().join("robot.xml"), text.replacen(root, &format!("{root}{seen}"), 1)).unwrap();
     let train =
         ["train", "--preset", "smoke", "--task", "motion", "--steps", "512", "--actors", "1", "--model", "robot.toml"];
     let time = set(&["env.control_step_s=0.02", "env.substeps=5"]);
@@ -94,6 +106,10 @@ fn the_imitated_motion_is_a_ghost_beside_the_robot() {
     let (watching, address) = watch(folder.path(), &["run"]);
     let page = browser.open(&address, WIDE);
     browser.wait_for(&page, "window.treadmill?.frames() > 10 && window.treadmill.ghosts() === 1");
+    assert_eq!(browser.value(&page, "window.treadmill.bodies()"), json!([1]));
+    // The target of the joint that is chosen.
+    let target = browser.value(&page, "document.getElementById('target').textContent");
+    assert!(target.as_str().unwrap().starts_with("target "), "{target}");
     browser.screenshot(&page).keep("ghost.png");
     assert_clean(&browser, &address);
     stop(watching);

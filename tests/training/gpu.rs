@@ -77,6 +77,9 @@ fn the_check_names_gpu_and_driver_and_what_is_wrong_with_them() {
         assert!(seen.contains(part), "{part}: {seen}");
     }
     assert_eq!(found["verdict"], "ok");
+    let wrong = gpu(&[("STAND_IN_WRONG", "1")]);
+    assert_eq!(wrong["verdict"], "problem");
+    assert!(wrong["seen"].as_str().unwrap().contains("away from the processor's"), "{wrong}");
     let absent: [(&str, &str, &[&str]); 2] = [
         ("STAND_IN_GPUS", "0", &["no CUDA-capable device is detected", "nvidia-smi"]),
         ("STAND_IN_VERSION", "11080", &["CUDA 11.8", "12.0", "525"]),

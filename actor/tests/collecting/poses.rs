@@ -3,10 +3,10 @@
 use tokio::sync::mpsc;
 use treadmill_actor::{
     environments::{Environments, StepResults},
-    poses::PoseSampler,
+    poses::{PoseSampler, body_pose},
 };
 use treadmill_bus::actor::Watched;
-use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, Model};
 use treadmill_proto::{PolicyVersion, Pose};
 
 use crate::{environments, identity, limited};
@@ -111,6 +111,17 @@ fn a_pose_repeats_the_state_of_the_physics() {
         assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()).as_ref(), Ok(pose));
         assert_eq!((pose.version, pose.config_hash), (Some(VERSION), 5));
     }
+}
+
+#[test]
+fn a_pose_has_the_control_of_each_hinge() {
+    let mut environment = Environment::new(&limited(9), HUMANOID_XML).unwrap();
+    let model = environment.physics().model().clone();
+    let controls: Vec<f32> = (0..model.motors.len()).map(|motor| 0.01 * motor as f32).collect();
+    environment.physics_mut().set_controls(&controls).unwrap();
+    let found = body_pose(&environment, None).joint_controls;
+    assert_eq!(found.len(), model.hinges.len());
+    assert!(model.motors.iter().zip(&controls).all(|(motor, control)| found[motor.hinge] == *control), "{found:?}");
 }
 
 #[test]

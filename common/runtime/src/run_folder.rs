@@ -10,6 +10,7 @@
 //!   lock.json             the process that writes into this folder
 //!   store.txt             the store of the run's state, if that is not in checkpoints/
 //!   model.xml             the humanoid
+//!   model_source.toml     where the file of another robot is on the machine that began the run
 //!   metrics.jsonl         one line per scalar
 //!   accounts.jsonl        one line per actor process
 //!   events.out.tfevents.* metrics for TensorBoard
@@ -214,6 +215,7 @@ impl RunFolder {
             "resume.txt",
             "versions.json",
             "model.xml",
+            "model_source.toml",
             "endpoint.txt",
             "lock.json",
             "store.txt",
@@ -257,6 +259,7 @@ impl RunFolder {
         "the accounts of fragments, one line per actor process" accounts = "accounts.jsonl";
         "the lock, see [`crate::run_lock`]" lock = "lock.json";
         "the URL of the store" store = "store.txt";
+        "the place of the robot's file" model_source = "model_source.toml";
         "the learner's endpoint" endpoint = "endpoint.txt";
         "the command that goes on with the run" resume = "resume.txt";
     }

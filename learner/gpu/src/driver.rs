@@ -55,6 +55,7 @@ impl Gpu {
             return Err(GpuError::NoDriver);
         }
         let absent = |why: DriverError| GpuError::Absent { why: explained(why) };
+        cudarc::driver::result::init().map_err(absent)?;
         let version = driver_version().map_err(absent)?;
         let shown = format!("{}.{}", version / 1000, version % 1000 / 10);
         if version < VERSION_MIN {

@@ -19,7 +19,7 @@ pub enum GpuError {
         found: String,
     },
     /// The machine has no usable GPU.
-    #[error("no CUDA device can be used: {why}; check `nvidia-smi`, or use --device cpu")]
+    #[error("no CUDA device can be used: {why}; check `nvidia-smi` and CUDA_VISIBLE_DEVICES, or use --device cpu")]
     Absent {
         /// The driver's error.
         why: String,

@@ -99,6 +99,13 @@ fn room(networks: &Networks, batch: usize, minibatch: usize, measured: usize) ->
     Room { batch, minibatch, measured, observation, parameters }
 }
 
+impl Drop for Session {
+    fn drop(&mut self) {
+        // Freeing needs the context to be this thread's. After an error of the driver nothing is left to wait for.
+        let _ = self.memory.settle();
+    }
+}
+
 impl Session {
     /// Allocates memory for batches, rows of a gradient step, and rows of the divergence.
     ///
@@ -127,6 +134,8 @@ impl Session {
         memory.write_integers(layout.log_std, &entries)?;
         memory.write_integers(layout.joins, &table(&structure.joins))?;
         memory.write_integers(layout.splits, &table(&structure.splits))?;
+        // The tables that are copied end here.
+        memory.settle()?;
         Ok(Self {
             steps: HashMap::new(),
             divergences: HashMap::new(),

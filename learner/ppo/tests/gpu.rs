@@ -1,4 +1,5 @@
-//! Updates on a GPU equal those on the processor. The GPU is that of `learner/gpu/tests/stand_in`, which runs the kernels.
+//! Updates on a GPU equal those on the processor. The GPU is that of `learner/gpu/tests/stand_in`, which runs the kernels,
+//! or with TREADMILL_GPU=1 that of the machine.
 
 #[path = "../../gpu/tests/stand_in/mod.rs"]
 mod stand_in;
@@ -17,6 +18,9 @@ fn rng(seed: u64) -> Xoshiro256PlusPlus {
 fn load_driver() {
     static LOADED: std::sync::Once = std::sync::Once::new();
     LOADED.call_once(|| {
+        if std::env::var_os("TREADMILL_GPU").is_some() {
+            return;
+        }
         let folder = tempfile::tempdir().expect("a folder");
         // SAFETY: the library only defines functions.
         let library = unsafe { libloading::Library::new(stand_in::build(folder.path())) }.expect("it loads");

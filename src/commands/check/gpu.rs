@@ -1,4 +1,4 @@
-//! Diagnosis of a GPU: driver, memory, and how long a gradient step takes there and on the processor.
+//! Diagnosis of a GPU: driver, memory, whether it computes what the processor does, and how long a gradient step takes.
 
 use treadmill_config::PpoConfig;
 use treadmill_ppo::{
@@ -21,6 +21,10 @@ const STEPS: f64 = 20.0;
 const DURATION_S: f64 = 0.3;
 const DURATION_MAX_S: f64 = 3.0;
 
+/// Largest distance of the parameters after an update there from those here, relative to their length. An update changes
+/// them by some hundredths.
+const DISTANCE_MAX: f64 = 1e-3;
+
 /// Finds the first GPU, and compares it with the processor. A machine needs none.
 pub fn diagnose() -> Finding {
     let device = match DeviceKind::Cuda.open() {
@@ -29,15 +33,35 @@ pub fn diagnose() -> Finding {
         Err(why) => return Finding::note("gpu", error_chain(&why), "without it, updates run on the processor"),
     };
     let Device::Cuda(gpu, _) = &device else { return Finding::ok("gpu", "none") };
-    match gpu.memory_bytes().map_err(anyhow::Error::from).and_then(|bytes| Ok((bytes, steps_us(&device)?))) {
+    let remedy = "check `nvidia-smi`, or train with --device cpu";
+    // Free memory first, of which the updates take some.
+    let measured = gpu.memory_bytes().map_err(anyhow::Error::from).and_then(|bytes| {
+        let distance = distance(&device)?;
+        anyhow::ensure!(
+            distance <= DISTANCE_MAX,
+            "an update there is {distance:.1e} away from the processor's, relative to its parameters"
+        );
+        Ok((bytes, steps_us(&device)?))
+    });
+    match measured {
         Ok(([free, all], steps)) => {
             let [free_mb, all_mb] = [free, all].map(|bytes| bytes / 1_000_000);
             Finding::ok("gpu", format!("{gpu}, {free_mb} of {all_mb} MB free; {}", steps.join("; ")))
         }
-        Err(why) => {
-            Finding::problem("gpu", format!("{gpu}: {why:#}"), "check `nvidia-smi`, or train with --device cpu")
-        }
+        Err(why) => Finding::problem("gpu", format!("{gpu}: {why:#}"), remedy),
     }
+}
+
+/// Returns how far the parameters after an update there are from those here, relative to their length; NaN if one is none.
+fn distance(gpu: &Device) -> anyhow::Result<f64> {
+    let after = |device: &Device| -> anyhow::Result<Vec<f32>> {
+        let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(cores())? };
+        Ok(update::measure(options, network::usual(), MINIBATCHES[0], 0)?.2.parameters().to_vec())
+    };
+    let (there, here) = (after(gpu)?, after(&Device::Cpu)?);
+    let length = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|number| number * number).sum::<f64>().sqrt();
+    let apart = length(&mut there.iter().zip(&here).map(|(there, here)| f64::from(there - here)));
+    Ok(apart / length(&mut here.iter().copied().map(f64::from)))
 }
 
 /// Measures gradient steps. Returns a sentence for each number of rows.

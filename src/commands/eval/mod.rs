@@ -17,7 +17,7 @@ use treadmill_actor::{
     evaluation::{EvaluationStep, evaluate_commanded},
 };
 use treadmill_config::{Config, RandomisationConfig};
-use treadmill_humanoid::{Environment, TaskRegistry, mjcf::visual_meshes};
+use treadmill_humanoid::{Environment, TaskRegistry};
 use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::exported::ExportedPolicy;
 use treadmill_render::Look;
@@ -41,7 +41,10 @@ use crate::{
         output::{say, say_error, say_to_reader},
         slow_step::SlowStepNotice,
     },
-    shared::saved_policy::{self, Origin, SavedPolicy},
+    shared::{
+        model_file::meshes,
+        saved_policy::{self, Origin, SavedPolicy},
+    },
 };
 
 /// Source of the actions.
@@ -124,7 +127,7 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let prints_steps = !args.json && print_every > 0;
     let prints_rows = !args.json && print_every == 0;
     let control_step_s = environment.control_step_s();
-    let mut filming = args.film.begin(control_step_s, || look(&args.model, &environment))?;
+    let mut filming = args.film.begin(control_step_s, || look(&args, &environment))?;
     let notice = SlowStepNotice::begin(format!("playing episode 1 of {}", args.episodes));
     let command_at = commands.as_ref().map(|file| |time_s: f64| file.at(time_s));
     let command_at = command_at.as_ref().map(|at| at as &dyn Fn(f64) -> [f64; 3]);
@@ -171,11 +174,9 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
 }
 
 /// Returns the look of a robot, by the meshes of its file if they are readable.
-fn look(args: &ModelArgs, environment: &Environment) -> Look {
-    let meshes = args.model.as_deref().map(|file| visual_meshes(file, &args.file.files()));
-    let meshes =
-        meshes.and_then(|meshes| meshes.inspect_err(|why| tracing::warn!(error = %why, "meshes not shown")).ok());
-    Look::of(environment.physics().model(), &meshes.unwrap_or_default())
+fn look(args: &EvalArgs, environment: &Environment) -> Look {
+    let ModelArgs { model, file, .. } = &args.model;
+    Look::of(environment.physics().model(), &meshes(model.as_deref(), file, args.run.as_deref()))
 }
 
 /// What plays.

@@ -255,6 +255,16 @@ pub struct Motor {
     pub force: [f64; 2],
 }
 
+impl Motor {
+    /// Returns the angle (rad) at which a servo with this control rests without a load; `None` for a motor that is no servo.
+    #[must_use]
+    pub fn target_rad(&self, control: f64) -> Option<f64> {
+        let [constant, per_length, _] = self.bias;
+        let force = self.gain * control.clamp(self.control[0], self.control[1]) + constant;
+        (per_length != 0.0).then(|| -force / (per_length * self.length_per_rad))
+    }
+}
+
 /// State and controls under a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keyframe {

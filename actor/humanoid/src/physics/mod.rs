@@ -257,6 +257,12 @@ impl Physics {
         &self.world.velocity[ROOT_DOFS..]
     }
 
+    /// Returns the controls that reach the motors, one number per motor; those of the last step that was finite.
+    #[must_use]
+    pub fn controls(&self) -> &[f32] {
+        &self.controls
+    }
+
     /// Returns the torque of each hinge's motors during the last physics step (N·m), in position order.
     #[must_use]
     pub fn joint_torques_nm(&self) -> &[f64] {

@@ -43,6 +43,7 @@ fn exact() -> MotionConfig {
         start_tilt_radps: 0.0,
         start_yaw_radps: 0.0,
         start_hinge_rad: 0.0,
+        first_share: 0.0,
         ..MotionConfig::default()
     }
 }
@@ -72,7 +73,7 @@ fn environment(config: &EnvironmentConfig) -> Environment {
 
 /// Returns settings, seed and model of a robot that imitates the motion.
 pub(crate) fn scene() -> Scene {
-    (config(MotionConfig { future_steps: 1, ..MotionConfig::default() }), 3, model_with(&[motion()]))
+    (config(MotionConfig { future_steps: 1, first_share: 0.0, ..MotionConfig::default() }), 3, model_with(&[motion()]))
 }
 
 /// Task and simulation, with the motion control step by control step.
@@ -200,6 +201,30 @@ fn evaluations_begin_with_each_motion_in_turn() {
         durations.push((name, (duration_s * 100.0).round() as u32));
     }
     assert_eq!(durations, [("swing".to_owned(), 300), ("other".to_owned(), 600), ("swing".to_owned(), 300)]);
+}
+
+#[test]
+fn a_share_of_the_episodes_begins_at_a_first_frame() {
+    let other =
+        MotionClip::new("other", 50.0, motion().hinges, motion().frames().flatten().copied().collect()).unwrap();
+    let config = config(MotionConfig { first_share: 0.5, ..exact() });
+    let mut environment = Environment::new(&config, &model_with(&[motion(), other])).unwrap();
+    let mut began = [0; 3];
+    for seed in 0..400 {
+        reset(&mut environment, seed);
+        let task: &dyn std::any::Any = environment.task();
+        let (name, time_s, _) = task.downcast_ref::<MotionTask>().unwrap().place(environment.physics());
+        let is_first = (time_s - STEP_S).abs() < 1e-9;
+        began[if !is_first {
+            0
+        } else if name == "swing" {
+            1
+        } else {
+            2
+        }] += 1;
+    }
+    // A half, and a quarter at each motion.
+    assert!((160..240).contains(&began[0]) && began[1..].iter().all(|count| (70..130).contains(count)), "{began:?}");
 }
 
 #[test]

@@ -240,6 +240,23 @@ fn a_motor_without_control_range_derives_it_from_its_limits() {
 }
 
 #[test]
+fn a_servo_rests_at_its_target() {
+    let target_rad = |actuator: &str, control: f64| {
+        let text = format!(
+            r"<mujoco><worldbody><geom type='plane' size='1 1 1'/><body><freejoint/><geom size='0.1'/><body>
+               <joint name='a'/><geom size='0.1'/></body></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        );
+        Model::from_mjcf(&text).expect("valid").motors[0].target_rad(control)
+    };
+    assert_eq!(target_rad("<motor joint='a' gear='60'/>", 0.5), None);
+    assert_eq!(target_rad("<position joint='a' kp='50' ctrlrange='-1 1'/>", 0.25), Some(0.25));
+    assert_eq!(target_rad("<position joint='a' kp='50' ctrlrange='-1 1'/>", 3.0), Some(1.0));
+    // Its length is twice the angle, and 4 · 0.5 + 1 = 8 · 2 · 0.1875.
+    let general = "<general joint='a' gear='2' gainprm='4' biastype='affine' biasprm='1 -8 0' ctrlrange='-1 1'/>";
+    assert_eq!(target_rad(general, 0.5), Some(0.1875));
+}
+
+#[test]
 fn actuators_that_share_a_servos_limit_are_noted() {
     let notes = |actuators: &str| {
         let model = Model::from_mjcf(&format!(

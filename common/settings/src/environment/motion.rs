@@ -72,6 +72,8 @@ motion! {
         residual_action: bool = true, "true or false" => |_| true;
         /// Number of further control steps whose reference angles the policy sees.
         future_steps: u32 = 0, "0 to 16" => |v| *v <= 16;
+        /// Share of the episodes that begin at the first frame of a motion, in training.
+        first_share: f64 = 0.2, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Share of the episodes that begin anywhere in the motions, in training. The others begin up to
         /// `motion.lead_s` before the frame at which this environment failed last.
         uniform_share: f64 = 0.3, "0 to 1" => |v| (0.0..=1.0).contains(v);

@@ -6,6 +6,7 @@
 //   STAND_IN_GPUS        number of GPUs (default 1)
 //   STAND_IN_BYTES       memory of the GPU (default 8 GB)
 //   STAND_IN_LAUNCHES    graphs that run before the driver fails (default: it never does)
+//   STAND_IN_WRONG       1: products are left out
 
 #define _GNU_SOURCE
 #include <math.h>
@@ -37,6 +38,9 @@ static long number(const char *name, long otherwise) {
 static size_t bytes(void) { return number("STAND_IN_BYTES", 8000000000L); }
 
 static Result run(const Launch *launch) {
+    // A GPU that computes something else.
+    if (launch->kernel == product && number("STAND_IN_WRONG", 0))
+        return SUCCESS;
     blockDim.x = launch->block;
     for (blockIdx.z = 0; blockIdx.z < launch->grid[2]; blockIdx.z++)
         for (blockIdx.y = 0; blockIdx.y < launch->grid[1]; blockIdx.y++)
@@ -50,7 +54,9 @@ static Result run(const Launch *launch) {
 Result cuInit(unsigned flags) { return number("STAND_IN_GPUS", 1) ? SUCCESS : NO_DEVICE; }
 Result cuDriverGetVersion(int *version) { *version = number("STAND_IN_VERSION", 12040); return SUCCESS; }
 Result cuDeviceGet(int *device, int ordinal) { *device = ordinal; return SUCCESS; }
-Result cuDeviceGetAttribute(int *value, int attribute, int device) { *value = 0; return SUCCESS; }
+// As real drivers, it has pools of memory.
+enum { MEMORY_POOLS_SUPPORTED = 115 };
+Result cuDeviceGetAttribute(int *value, int attribute, int device) { *value = attribute == MEMORY_POOLS_SUPPORTED; return SUCCESS; }
 Result cuDeviceGetName(char *name, int length, int device) { snprintf(name, length, "Stand-in"); return SUCCESS; }
 Result cuDevicePrimaryCtxRetain(void **context, int device) { *context = &used; return SUCCESS; }
 Result cuDevicePrimaryCtxRelease_v2(int device) { return SUCCESS; }
@@ -84,6 +90,8 @@ Result cuMemFree_v2(void *address) {
     free(memory);
     return SUCCESS;
 }
+Result cuMemAllocAsync(void **address, size_t size, Stream *stream) { return cuMemAlloc_v2(address, size); }
+Result cuMemFreeAsync(void *address, Stream *stream) { return cuMemFree_v2(address); }
 Result cuMemcpyHtoDAsync_v2(void *to, const void *from, size_t size, Stream *stream) { memcpy(to, from, size); return SUCCESS; }
 Result cuMemcpyDtoHAsync_v2(void *to, const void *from, size_t size, Stream *stream) { memcpy(to, from, size); return SUCCESS; }
 Result cuMemcpyDtoDAsync_v2(void *to, const void *from, size_t size, Stream *stream) { memcpy(to, from, size); return SUCCESS; }

@@ -1,4 +1,7 @@
-//! Where episodes begin: anywhere in the motions, or shortly before a failure.
+//! Where episodes begin: at the start of a motion, anywhere in the motions, or shortly before a failure.
+//!
+//! A robot that stands askew at the first frame falls seconds later, where an episode that begins there does not. So some
+//! episodes begin at the first frame, as evaluations do.
 //!
 //! mjlab draws from bins of a second, by the counts of failures of all environments. Here each environment goes back to
 //! its own last failure until it has come past it; a new one begins with that of another. The starts of many environments
@@ -59,8 +62,11 @@ impl MotionTask {
         if !self.in_training {
             return motions[self.chosen].start;
         }
-        let is_uniform = random.random::<f64>() < self.config.uniform_share;
-        if let Some(failed) = self.failed.filter(|_| !is_uniform) {
+        let kind = random.random::<f64>();
+        if kind >= 1.0 - self.config.first_share {
+            return motions[random.random_range(0..motions.len())].start;
+        }
+        if let Some(failed) = self.failed.filter(|_| kind >= self.config.uniform_share) {
             let begin = self.reference.motion_of(failed).start;
             return random.random_range(failed.saturating_sub(self.lead_steps()).max(begin)..failed.max(begin + 1));
         }
