@@ -86,6 +86,27 @@ else
 fi
 say "engine $(docker version --format '{{.Server.Version}}'), $("${composer[@]}" version --short)"
 
+# --- context: what the Dockerfile copies and the compiler includes --------------------------------------------------------
+printf 'FROM scratch\nCOPY . /\nCMD ["none"]\n' >"$work/Dockerfile.context"
+root=$(dirname "$here")
+{ DOCKER_BUILDKIT=0 docker build -q -t treadmill-context:test -f "$work/Dockerfile.context" "$root" >/dev/null &&
+    context=$(docker create treadmill-context:test) && docker export "$context" | tar -t >"$work/context" &&
+    docker rm "$context" && docker rmi treadmill-context:test; } >"$work/build.log" 2>&1 ||
+    { cat "$work/build.log" >&2; fail 'reading the build context failed'; }
+cd "$root"
+{
+    sed -n 's/^COPY \([^-.][^ ]*\) .*/\1/p' deploy/Dockerfile
+    grep -rnoE 'include_(str|bytes)!\("[^"]+"' --include='*.rs' src actor/src actor/humanoid/src common learner proto/src render/src |
+        while IFS=: read -r file _ included; do
+            realpath -m --relative-to . "$(dirname "$file")/$(sed 's/[^"]*"\([^"]*\)"/\1/' <<<"$included")"
+        done
+} | sort -u >"$work/needed"
+[ "$(wc -l <"$work/needed")" -gt 10 ] || fail 'the list of needed files is too short'
+absent=$(grep -vxFf "$work/context" "$work/needed" | grep -v '/tests/' || true)
+[ -z "$absent" ] || fail ".dockerignore leaves out what the image needs: $absent"
+cd - >/dev/null
+say "build context with $(wc -l <"$work/context") files, all $(wc -l <"$work/needed") needed ones among them"
+
 # --- image: the Dockerfile's last stage with the binary ------------------------------------------------------------------
 "$here/image.sh" "$binary" treadmill:test >"$work/build.log" 2>&1 ||
     { cat "$work/build.log" >&2; fail 'building the image failed'; }

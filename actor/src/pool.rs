@@ -41,7 +41,6 @@ pub type Deliveries = JoinSet<Result<Refresh, BusError>>;
 /// Place of an actor in the pool.
 pub struct PoolPlace {
     seeker: Seeker,
-    room: PoolRoom,
     /// Deliveries that were under way when the actor left their run, the oldest first.
     left: VecDeque<(String, Deliveries)>,
     _token: Box<dyn Send + Sync>,
@@ -74,7 +73,7 @@ impl PoolPlace {
             avoided: Arc::default(),
             largest: Arc::default(),
         };
-        Ok(Self { seeker, room: PoolRoom::open(bus)?, left: VecDeque::new(), _token: token })
+        Ok(Self { seeker, left: VecDeque::new(), _token: token })
     }
 
     /// Returns the part that a task may take along.
@@ -89,6 +88,7 @@ impl PoolPlace {
     pub async fn find(&self, notify: fn(&str), shutdown: &Shutdown) -> Result<Option<String>, BusError> {
         let mut pause = PAUSE;
         let mut has_notified = false;
+        let mut calls = None;
         loop {
             let found = tokio::select! {
                 found = self.seeker.seek(None) => found?,
@@ -97,6 +97,11 @@ impl PoolPlace {
             if found.is_some() {
                 return Ok(found);
             }
+            // Only an actor that waits hears calls: of a large pool, most actors work.
+            let room = match &mut calls {
+                Some(room) => room,
+                calls => calls.insert(PoolRoom::open(&self.seeker.bus)?),
+            };
             if pause >= PAUSE_NOTICED && !has_notified {
                 let largest = self.seeker.largest.load(Ordering::Relaxed);
                 match (1..self.seeker.envs).contains(&largest) {
@@ -115,7 +120,7 @@ impl PoolPlace {
             let rested = async {
                 tokio::select! {
                     () = tokio::time::sleep(pause.mul_f64(jitter)) => (2 * pause).min(PAUSE_MAX),
-                    () = self.room.called() => {
+                    () = room.called() => {
                         tokio::time::sleep(PAUSE.mul_f64(jitter)).await;
                         PAUSE
                     }

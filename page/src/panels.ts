@@ -11,7 +11,7 @@ const PLOT_HEIGHT = 84;
 /** The full length of a bar is the largest term of late: it fades by this factor at each update. */
 const LARGEST_FADE = 0.99;
 /** Unit of the reward's terms. */
-const REWARD = 1e-4;
+const REWARD = 1e-3;
 
 type Values = (number | null)[];
 
@@ -88,9 +88,9 @@ export class Panels {
     say(element("episode"), String(frame.episode));
     say(element("distance"), `${frame.distanceM.toFixed(2)} m`);
     this.velocities(frame);
-    this.largest = Math.max(1e-3, LARGEST_FADE * this.largest, ...frame.rewardsE4.map((term) => Math.abs(term) * REWARD));
+    this.largest = Math.max(1e-3, LARGEST_FADE * this.largest, ...frame.rewardsE3.map((term) => Math.abs(term) * REWARD));
     for (const [index, { value, bar }] of this.terms.entries()) {
-      const reward = (frame.rewardsE4[index] ?? 0) * REWARD;
+      const reward = (frame.rewardsE3[index] ?? 0) * REWARD;
       say(value, reward.toFixed(3));
       bar.style.transform = `scaleX(${reward / this.largest})`;
       bar.className = reward < 0 ? "negative" : "";
@@ -116,19 +116,21 @@ export class Panels {
   private joint(now: PageFrame): void {
     const at = Number(choice("hinge").value);
     const { isServo = false } = this.robots[this.robot]?.hinges[at] ?? {};
-    const thousandths = (numbers: readonly number[]) => (at in numbers ? numbers[at]! / 1000 : null);
+    const of = (numbers: readonly number[], units: number) => (at in numbers ? numbers[at]! / units : null);
+    const angle_rad = ({ anglesMrad }: PageFrame) => of(anglesMrad, 1000);
+    const control_of = ({ controlsE2 }: PageFrame) => of(controlsE2, 100);
     const torque_nm = (frame: PageFrame) => (frame.torquesCnm[at] ?? 0) / 100;
     const [times, angles, targets, torques]: [number[], Values, Values, number[]] = [[], [], [], []];
     this.timeline.visit(this.robot, PLOT_S, ({ shown_s, frame }) => {
       times.push(shown_s - this.timeline.time_s);
-      angles.push(thousandths(frame.anglesMrad));
-      targets.push(isServo ? thousandths(frame.controlsE3) : null);
+      angles.push(angle_rad(frame));
+      targets.push(isServo ? control_of(frame) : null);
       torques.push(torque_nm(frame));
     });
     this.plots[0]?.(times, angles, targets);
     this.plots[1]?.(times, torques);
-    const control = thousandths(now.controlsE3)?.toFixed(3) ?? "–";
-    say(element("angle"), thousandths(now.anglesMrad)?.toFixed(3) ?? "–");
+    const control = control_of(now)?.toFixed(2) ?? "–";
+    say(element("angle"), angle_rad(now)?.toFixed(3) ?? "–");
     say(element("target"), isServo ? `target ${control}` : "");
     say(element("torque"), torque_nm(now).toFixed(2));
     say(element("control"), isServo ? "" : `action ${control}`);

@@ -126,8 +126,8 @@ impl Shown {
         let mut frame = frame_of(pose);
         (frame.episode, frame.shown_s) = (self.episode, self.at_s);
         if !is_gymnasiums {
-            frame.rewards_e4.truncate(2);
-            frame.rewards_e4.remove(0);
+            frame.rewards_e3.truncate(2);
+            frame.rewards_e3.remove(0);
         }
         hub.show_frame(frame);
     }

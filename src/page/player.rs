@@ -128,7 +128,7 @@ impl Player {
         self.environment.task().command()
     }
 
-    /// Returns the names of [`PageFrame::rewards_e4`].
+    /// Returns the names of [`PageFrame::rewards_e3`].
     pub fn reward_terms(&self) -> Vec<String> {
         let mut names = Vec::new();
         self.environment.task().reward_terms(&mut |name, _| names.push(name.to_string()));
@@ -227,7 +227,7 @@ impl Player {
         let physics = self.environment.physics();
         let mut rewards = Vec::new();
         self.environment.task().reward_terms(&mut |_, term| rewards.push(term as f32));
-        let rewards_e4 = rounded(&rewards, 1e4);
+        let rewards_e3 = rounded(&rewards, 1000.0);
         let pose = Pose {
             episode: self.episode,
             time_s: f64::from(self.step) * self.control_step_s(),
@@ -236,7 +236,7 @@ impl Player {
         };
         let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
         let (ghost_base_m, ghost) = self.ghost_bodies();
-        PageFrame { robot, shown_s, rewards_e4, velocity, ghost_base_m, ghost, ..frame_of(&pose) }
+        PageFrame { robot, shown_s, rewards_e3, velocity, ghost_base_m, ghost, ..frame_of(&pose) }
     }
 
     /// Adds the robot that shows the motion, if the task has one.
@@ -299,14 +299,14 @@ pub fn frame_of(pose: &Pose) -> PageFrame {
         contacts: contacts.into(),
         angles_mrad: rounded(&pose.joint_angles_rad, 1000.0),
         torques_cnm: rounded(&pose.joint_torques_nm, 100.0),
-        rewards_e4: rounded(&[pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact], 1e4),
+        rewards_e3: rounded(&[pose.reward_survive, pose.reward_forward, pose.reward_ctrl, pose.reward_contact], 1000.0),
         command: pose.command.clone(),
         velocity: pose.base_velocity.clone(),
         distance_m: pose.distance_m,
         centre_of_mass_m: pose.centre_of_mass_m.clone(),
         ghost_base_m: Vec::new(),
         ghost: Bytes::new(),
-        controls_e3: rounded(&pose.joint_controls, 1000.0),
+        controls_e2: rounded(&pose.joint_controls, 100.0),
     }
 }
 

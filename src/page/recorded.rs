@@ -117,7 +117,7 @@ impl Recorded {
         };
         let velocity = poses::heading_velocity(physics).map(|part| part as f32).to_vec();
         // The controls of this body are not those of the trace.
-        PageFrame { shown_s, velocity, rewards_e4: Vec::new(), controls_e3: Vec::new(), ..frame_of(&pose) }
+        PageFrame { shown_s, velocity, rewards_e3: Vec::new(), controls_e2: Vec::new(), ..frame_of(&pose) }
     }
 
     fn lines(&self) -> anyhow::Result<impl Iterator<Item = std::io::Result<String>> + use<>> {

@@ -3,7 +3,6 @@
 use std::{
     collections::BTreeSet,
     fs,
-    net::TcpListener,
     path::Path,
     process::{Command, Output},
     sync::LazyLock,
@@ -69,7 +68,7 @@ fn start(folder: &Path, args: &[&str]) -> Running {
 
 /// Returns an endpoint without a listener.
 fn unused_endpoint() -> String {
-    format!("tcp/{}", TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap())
+    format!("tcp/127.0.0.1:{}", free_port())
 }
 
 /// Endpoint that the page quotes.

@@ -73,8 +73,7 @@ fn actors_of_a_killed_train_exit() {
 #[test]
 fn an_actor_without_a_learner_warns_and_retries() {
     let (folder, run) = folders();
-    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
-    let endpoint = format!("tcp/127.0.0.1:{port}");
+    let [endpoint] = free_endpoints("tcp");
     let waiting = actor(folder.path(), &endpoint, "early");
     waiting.wait_for(&endpoint);
     assert!(is_running(waiting.pid()));

@@ -1,6 +1,6 @@
 //! No learner answers: every command finds the cause, and ends with the command that examines everything.
 
-use std::{net::TcpListener, path::Path};
+use std::path::Path;
 
 use crate::support::*;
 
@@ -22,7 +22,7 @@ fn learner(folder: &Path, flags: &[&str]) -> Running {
 fn a_closed_port_and_an_unknown_host_are_named() {
     let (folder, _) = folders();
     let folder = folder.path();
-    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let port = free_port();
     let flags = format!("--connect tcp/127.0.0.1:{port}");
     for command in [&["status"][..], &["control", "pause"]] {
         let args = [command, &["--connect", &flags[10..]]].concat();

@@ -1,6 +1,6 @@
 //! Learners that share a store: a standby takes over from one that is killed or frozen, and the other one steps down.
 
-use std::{ffi::CString, fs, net::TcpListener, path::Path, process::Command};
+use std::{ffi::CString, fs, path::Path, process::Command};
 
 use serde_json::Value;
 
@@ -272,7 +272,7 @@ fn a_service_waits_for_a_store_that_fails_at_its_start() {
     let obstacle = folder.path().join("disk");
     fs::write(&obstacle, "a file").unwrap();
     let url = format!("file://{}/store", obstacle.display());
-    let page = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
+    let page = format!("127.0.0.1:{}", free_port());
     let service = ["--preset", "smoke", "--steps", ENDLESS, "--listen", "tcp/127.0.0.1:0", "--resume-or-start"];
     let waiting =
         Running::start(learner(folder.path(), &url, "first", &[&service[..], &["--prometheus", &page]].concat()));

@@ -2,13 +2,13 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod motion;
+mod ports;
 mod process;
 
 use std::{
     collections::BTreeMap,
     fmt::Debug,
     fs,
-    net::TcpListener,
     os::unix::fs::PermissionsExt,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
@@ -21,6 +21,7 @@ use std::{
 };
 
 use bytes::Bytes;
+pub use ports::*;
 pub use process::*;
 use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
@@ -175,12 +176,6 @@ pub fn issue(role: Role, certs: &Path, out: &Path, [from, until]: [i64; 2]) {
     fs::write(certificate, params.signed_by(&pair, &authority).unwrap().pem()).unwrap();
     fs::write(&key, pair.serialize_pem()).unwrap();
     fs::set_permissions(&key, fs::Permissions::from_mode(0o600)).unwrap();
-}
-
-/// Returns free endpoints, which differ because all are taken at the same time.
-pub fn free_endpoints<const N: usize>(protocol: &str) -> [String; N] {
-    let taken = [(); N].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
-    taken.map(|listener| format!("{protocol}/{}", listener.local_addr().unwrap()))
 }
 
 /// Opens a router's session that listens, and returns its endpoints.
