@@ -9,7 +9,7 @@ use std::{
 /// Most words of a page.
 const PAGE_WORDS_MAX: [(&str, usize); 3] = [("README.md", 1200), ("ARCHITECTURE.md", 2080), ("CHANGELOG.md", 730)];
 /// Most words of all pages together, generated ones included.
-const ALL_WORDS_MAX: usize = 41_300;
+const ALL_WORDS_MAX: usize = 41_350;
 /// Most columns of a table.
 const COLUMNS_MAX: usize = 7;
 /// Most lines of Rust: in all, and of the product without tests.

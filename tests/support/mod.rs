@@ -1,5 +1,5 @@
 //! Helpers of the whole-system tests: run the real binary in a temporary folder, read its output, wait for conditions.
-#![allow(dead_code, reason = "each test file uses its own part")]
+#![allow(dead_code, unused_imports, reason = "each test file uses its own part")]
 
 pub mod motion;
 mod ports;
