@@ -21,7 +21,7 @@ use crate::{
     },
     shared::{
         learner_address::ReachArgs,
-        model_file::{ModelFileArgs, meshes},
+        model_file::{ModelFileArgs, ModelSource, meshes},
     },
 };
 
@@ -71,7 +71,7 @@ pub fn run(args: &WatchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let WatchArgs { reach, more, live, actor, checkpoint, trace, seed, model, model_file, serve } = args;
     // Meshes that were asked for and cannot be read are an error.
     let visuals = model.as_deref().map(|file| visual_meshes(file, &model_file.files())).transpose()?;
-    let of_first = |run: Option<&str>| visuals.clone().unwrap_or_else(|| meshes(None, model_file, run));
+    let of_first = |run: Option<&str>| visuals.clone().unwrap_or_else(|| meshes(run.and_then(ModelSource::of_run)));
     let (shutdown, tls) = (Shutdown::default(), reach.network.tls.as_deref());
     if *live || reach.folder.is_none() && !reach.connect.is_empty() {
         let served = serve.open(tls)?;

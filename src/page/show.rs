@@ -15,7 +15,7 @@ use treadmill_proto::page::{FromPageKind, PageCommand, PagePush, PageRobot, Page
 use treadmill_runtime::{error_chain, run_folder::RunFolder, shutdown::Shutdown};
 
 use super::{curves::RunLog, hub::Hub, player::Player, scene};
-use crate::shared::model_file::{ModelFileArgs, meshes};
+use crate::shared::model_file::{ModelSource, meshes};
 
 /// Most policies side by side.
 pub const POLICIES_MAX: usize = 4;
@@ -110,7 +110,7 @@ impl Stage {
         let players: Vec<Player> = show.runs.iter().map(load).collect::<anyhow::Result<_>>()?;
         let count = players.len();
         let robot = |player: &Player| {
-            let own = || meshes(None, &ModelFileArgs::default(), Some(player.run()));
+            let own = || meshes(ModelSource::of_run(player.run()));
             let visuals = show.visuals.as_ref().map_or_else(|| Cow::Owned(own()), Cow::Borrowed);
             scene::robot(short(player.run()), player.model(), &visuals, player.reward_terms())
         };

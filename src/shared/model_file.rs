@@ -82,22 +82,16 @@ impl ModelSource {
         atomic_file::write(&folder.model_source(), text.as_bytes())
     }
 
-    /// Reads the visual meshes; none if they cannot be read.
-    #[must_use]
-    pub fn meshes(&self) -> Vec<VisualMesh> {
+    fn meshes(&self) -> Vec<VisualMesh> {
         let files = ModelFiles { packages: self.package.clone(), holds_slides: self.hold_slides };
         let found = visual_meshes(&self.file, &files);
         found.inspect_err(|why| tracing::warn!(error = %error_chain(why), "meshes not shown")).unwrap_or_default()
     }
 }
 
-/// Returns the visual meshes of the file that flags name, or else of the run's own; none without a readable file.
+/// Returns the visual meshes of a robot's file; none without a readable one.
 #[must_use]
-pub fn meshes(given: Option<&Path>, flags: &ModelFileArgs, run: Option<&str>) -> Vec<VisualMesh> {
-    let source = match given {
-        Some(file) => ModelSource::given(file, flags).ok(),
-        None => run.and_then(ModelSource::of_run),
-    };
+pub fn meshes(source: Option<ModelSource>) -> Vec<VisualMesh> {
     source.map(|source| source.meshes()).unwrap_or_default()
 }
 

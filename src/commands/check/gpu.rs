@@ -52,7 +52,7 @@ pub fn diagnose() -> Finding {
     }
 }
 
-/// Returns how far the parameters after an update there are from those here, relative to their length; NaN if one is none.
+/// Returns how far the parameters after an update there are from those here, relative to their length. A NaN stays NaN.
 fn distance(gpu: &Device) -> anyhow::Result<f64> {
     let after = |device: &Device| -> anyhow::Result<Vec<f32>> {
         let options = PpoOptions { device: device.clone(), ..PpoOptions::on_cpu(cores())? };

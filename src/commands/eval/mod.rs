@@ -42,7 +42,7 @@ use crate::{
         slow_step::SlowStepNotice,
     },
     shared::{
-        model_file::meshes,
+        model_file::{ModelSource, meshes},
         saved_policy::{self, Origin, SavedPolicy},
     },
 };
@@ -176,7 +176,11 @@ pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
 /// Returns the look of a robot, by the meshes of its file if they are readable.
 fn look(args: &EvalArgs, environment: &Environment) -> Look {
     let ModelArgs { model, file, .. } = &args.model;
-    Look::of(environment.physics().model(), &meshes(model.as_deref(), file, args.run.as_deref()))
+    let source = match model {
+        Some(path) => ModelSource::given(path, file).ok(),
+        None => args.run.as_deref().and_then(ModelSource::of_run),
+    };
+    Look::of(environment.physics().model(), &meshes(source))
 }
 
 /// What plays.

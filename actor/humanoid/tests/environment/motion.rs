@@ -215,13 +215,12 @@ fn a_share_of_the_episodes_begins_at_a_first_frame() {
         let task: &dyn std::any::Any = environment.task();
         let (name, time_s, _) = task.downcast_ref::<MotionTask>().unwrap().place(environment.physics());
         let is_first = (time_s - STEP_S).abs() < 1e-9;
-        began[if !is_first {
-            0
-        } else if name == "swing" {
-            1
-        } else {
-            2
-        }] += 1;
+        let kind = match (is_first, &name[..]) {
+            (false, _) => 0,
+            (true, "swing") => 1,
+            (true, _) => 2,
+        };
+        began[kind] += 1;
     }
     // A half, and a quarter at each motion.
     assert!((160..240).contains(&began[0]) && began[1..].iter().all(|count| (70..130).contains(count)), "{began:?}");
